@@ -11,9 +11,9 @@ from probation_studies.blind.laboratories import industry
 from probation_studies.blind.laboratories.industry.bench import BenchTest, Law, Programme, Scales, base_stress
 from probation_studies.blind.laboratories.industry.causes import CATALOGUE, CAUSES, effect
 from probation_studies.blind.laboratories.industry.instruments import Instruments
+from probation_studies.blind.laboratories.industry.known_causes import Errors, RecordAsTested, left_when_told
 from probation_studies.blind.laboratories.industry.oracle import beats
 from probation_studies.blind.laboratories.industry.sight import Acting, Sight, residual, view_of
-from probation_studies.blind.laboratories.industry.told import Errors, RecordAsTested, left_when_told
 
 CORNERS, TRAVEL = [0.0, 100.0, 150.0, 250.0, 320.0, 420.0], [0.0, 0.2, 0.2, 0.4, 0.36, 0.8]
 TIME = np.unique(np.concatenate([np.linspace(0.0, 420.0, 200), CORNERS]))

@@ -13,11 +13,11 @@ from probation_studies.blind.laboratories.university.causes import COMMON, OUTSI
 from probation_studies.blind.laboratories.university.design import Specimen, draw_design
 from probation_studies.blind.laboratories.university.errors import strain_response
 from probation_studies.blind.laboratories.university.histories import FINER, loops, relaxation
+from probation_studies.blind.laboratories.university.known_causes import left_when_told
 from probation_studies.blind.laboratories.university.modal_law import Material, base_course, integrate
 from probation_studies.blind.laboratories.university.oracle import Candidate, consult, discriminability
 from probation_studies.blind.laboratories.university.planting import plant
 from probation_studies.blind.laboratories.university.signals import added, bench_of, course_of, specimen_response
-from probation_studies.blind.laboratories.university.told import left_when_told
 
 PLAIN = Material(2000.0, 5.0, 2.0)
 WITH_COMPANION = Material(3000.0, 1.1, 1.8, (0.00464, 0.0367))

@@ -13,6 +13,7 @@ from probation_studies.blind.laboratory.bank import Bank, Signal
 from probation_studies.blind.laboratory.campaign import SealedCampaign, WrittenRecord
 from probation_studies.blind.laboratory.causes import KNOWN, OUTSIDE
 from probation_studies.blind.laboratory.design import Design, draw_design
+from probation_studies.blind.laboratory.known_causes import left_when_told
 from probation_studies.blind.laboratory.noise import draw_record_noise
 from probation_studies.blind.laboratory.oracle import consult, explanation
 from probation_studies.blind.laboratory.placing import (
@@ -24,7 +25,6 @@ from probation_studies.blind.laboratory.placing import (
     plant,
 )
 from probation_studies.blind.laboratory.recording import record_all, run_undisturbed
-from probation_studies.blind.laboratory.told import left_when_told
 from probation_studies.blind.laboratory.truth import Truth, campaign_name
 from probation_studies.blind.laboratory.withheld import describe
 

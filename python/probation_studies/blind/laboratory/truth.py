@@ -113,7 +113,7 @@ class Truth:
     noise_drawn : dict
         Root mean square of what the true law with its causes leaves of every record, along the recorded strain [MPa].
     left_when_told : dict
-        The same of that law refitted to the identified records; see `probation_studies.blind.laboratory.told`.
+        The same of that law refitted to the identified records; see `probation_studies.blind.laboratory.known_causes`.
     """
 
     split: str

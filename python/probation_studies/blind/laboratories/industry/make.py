@@ -15,6 +15,7 @@ from probation_studies.blind.laboratories.industry.bench import Law, Programme, 
 from probation_studies.blind.laboratories.industry.campaign import Record, write_campaign
 from probation_studies.blind.laboratories.industry.causes import CATALOGUE, CAUSES, Cause, Form, effect
 from probation_studies.blind.laboratories.industry.instruments import Instruments, draw_instruments, read_out
+from probation_studies.blind.laboratories.industry.known_causes import Errors, RecordAsTested, left_when_told
 from probation_studies.blind.laboratories.industry.memory import FloatArray
 from probation_studies.blind.laboratories.industry.oracle import Column, beats, consult, left_by
 from probation_studies.blind.laboratories.industry.programmes import (
@@ -25,7 +26,6 @@ from probation_studies.blind.laboratories.industry.programmes import (
     draw_programme,
 )
 from probation_studies.blind.laboratories.industry.sight import Acting, Sight, refined, residual, tested
-from probation_studies.blind.laboratories.industry.told import Errors, RecordAsTested, left_when_told
 
 SPLITS = ("develop", "calibrate", "test")
 STRATA = ("none", "single", "pair", "outside", "replicates")

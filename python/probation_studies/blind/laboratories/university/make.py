@@ -13,6 +13,7 @@ from probation_studies.blind.laboratories.university.catalogue_names import UNKN
 from probation_studies.blind.laboratories.university.causes import COMMON, OUTSIDE, Run
 from probation_studies.blind.laboratories.university.design import Test, draw_design
 from probation_studies.blind.laboratories.university.histories import FINER
+from probation_studies.blind.laboratories.university.known_causes import left_when_told
 from probation_studies.blind.laboratories.university.modal_law import integrate
 from probation_studies.blind.laboratories.university.oracle import Candidate, Oracle, consult, discriminability
 from probation_studies.blind.laboratories.university.planting import LEAST, MOST, Bank, Planted, bank_of, plant
@@ -25,7 +26,6 @@ from probation_studies.blind.laboratories.university.signals import (
     recorded,
     sampling_error,
 )
-from probation_studies.blind.laboratories.university.told import left_when_told
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What a refit that is told the causes leaves of every record: the floor under every diagnosis."""
+"""What a refit with known causes leaves of every record: the floor under every diagnosis."""
 
 from __future__ import annotations
 
@@ -47,9 +47,9 @@ def left_when_told(sight: Sight, records: Sequence[RecordAsTested]) -> list[floa
     """Root mean square [MPa] of what is left of every record along the strain without its noise.
 
     The base law's parameters and the amplitudes of the causes are refitted to the identified records, by generalised
-    least squares linear around the truth; forms, shapes and places are told. The strain's noise is left out of what
-    is left, since an answer smooths it: what an answer leaves of it counts against the answer. Where specimens differ,
-    the deviations of an identified one are estimated, too; those of a held-out one nobody can know.
+    least squares linear around the truth; forms, nonlinear parameters and places are known. The strain's noise is left
+    out of what is left, since an answer smooths it: what an answer leaves of it counts against the answer. Where
+    specimens differ, the deviations of an identified one are estimated, too; those of a held-out one nobody can know.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a refit leaves of the records that is told what acts: the floor under every diagnosis."""
+"""What a refit with known causes leaves of the records: the floor under every diagnosis."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def left_when_told(bank: Bank, planted: Sequence[Planted], noise: Sequence[Float
     """What is left of every record by the generator's own law, refitted to the identified ones.
 
     Its parameters and the amplitudes of its causes are refitted (generalised least squares with the covariance that
-    the noise was drawn from, linear around the truth); their forms, shapes and places are told.
+    the noise was drawn from, linear around the truth); their forms, nonlinear parameters and places are known.
 
     Parameters
     ----------
