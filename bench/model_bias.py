@@ -15,7 +15,7 @@ import numpy as np
 
 import probation
 from probation.certificate.bias import model_bias
-from probation.certificate.trial import free_parameters
+from probation.certificate.fits import free_parameters
 from probation.effects.cause import Cause
 from probation.effects.record_view import views_of
 from probation.effects.registry import effect

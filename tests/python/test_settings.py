@@ -107,7 +107,7 @@ NUMERICAL = {
     "identify/variable_projection.py": {"POINTS", "NEARBY"},
     "identify/weighting.py": {"SMALL_STEP", "ROUGH_STEP"},
     "certificate/bias.py": {"LENGTHS", "RATIOS"},
-    "certificate/trial.py": {"LATE", "PARAMETERS"},
+    "certificate/fits.py": {"LATE", "PARAMETERS"},
     "calibration/cross_validation.py": {"SMALLEST_REPORTED"},
     "calibration/direct.py": {"FINE", "MOST_STEPS", "LONGEST_STEP"},
     "calibration/regression.py": {"_MOST_ROUNDS", "FINE"},

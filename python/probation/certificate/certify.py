@@ -9,10 +9,10 @@ import numpy as np
 
 from probation.calibration.calibrated import CalibratedCompanion
 from probation.certificate.consistency import Consistency, Estimate, judge
+from probation.certificate.fits import PARAMETERS, CertificateFits, estimates, joint_covariance
 from probation.certificate.hardening import reaches_hardening, regress_hardening
 from probation.certificate.prediction import predict
 from probation.certificate.result import Certificate
-from probation.certificate.trial import PARAMETERS, Trial, estimates, joint_covariance
 from probation.certificate.verdict import decide
 from probation.errors import InputError
 from probation.identify.fit import gap_of
@@ -96,7 +96,7 @@ def certify(
         )
     if hold:
         campaign = replace(campaign, law=replace(campaign.law, fixed={**campaign.law.fixed, **hold}))
-    trial = Trial(campaign, as_scheme(scheme, DIFFERENTIABLE), excitation)
+    fits = CertificateFits(campaign, as_scheme(scheme, DIFFERENTIABLE), excitation)
     records = campaign.records
     rated = campaign.law.companion is not None
     total = 1 + (len(records) if not campaign.held_out else 0) + len(records) * (3 + rated)
@@ -109,7 +109,7 @@ def certify(
             progress(Part(done / total, f"identification {min(done + 1, total)} of {total}"))
         return fit
 
-    base = step(trial.base())
+    base = step(fits.base())
     gap = gap_of(campaign)
     scatter = None if gap is None else gap.scatter
     relation = CalibratedCompanion.from_settings(campaign.law.companion)
@@ -117,18 +117,18 @@ def certify(
     driven = excitations_of(campaign.held_out or campaign.records, excitation, further=further)
     predictions = {
         record.id: predict(source, known, record, tolerance, driven[record.id], relation)
-        for source, known, record in _pairs(trial, base, step)
+        for source, known, record in _pairs(fits, base, step)
     }
-    free = {record.id: step(trial.fit([record], trial.holding(base, []))) for record in records}
+    free = {record.id: step(fits.on([record], fits.holding(base, []))) for record in records}
     own = {record: estimates(found, record, relation=relation, specimens=scatter) for record, found in free.items()}
     modulus, modulus_error = _modulus(base, own, held="unrelaxed_modulus_MPa" in campaign.law.fixed)
     known_modulus = replace(campaign.law, fixed={"unrelaxed_modulus_MPa": modulus})
-    alone = {record.id: step(trial.fit([record], known_modulus)) for record in records}
+    alone = {record.id: step(fits.on([record], known_modulus)) for record in records}
     held = {record: estimates(found, record, modulus_error, relation, scatter) for record, found in alone.items()}
     parameters = _judge(own, held)
     failing = [name for name, parameter in parameters.items() if not parameter.passes]
     kept = [name for name in parameters if name not in failing]
-    shared = trial.holding(base, kept)
+    shared = fits.holding(base, kept)
     if len(base.records) > 1:  # which disagree, so that the values identified on all of them are nobody's
         means = {outside_name(name): parameters[name].mean for name in kept if parameters[name].tested}
         shared = replace(shared, fixed={**shared.fixed, **means})
@@ -137,11 +137,11 @@ def certify(
     elif shared == known_modulus:
         described = alone
     else:
-        described = {record.id: step(trial.fit([record], shared)) for record in records}
+        described = {record.id: step(fits.on([record], shared)) for record in records}
     without = {}
     if rated:
         bare = replace(campaign.law, companion=None, fixed={})
-        without = {record.id: step(trial.fit([record], bare)) for record in records}
+        without = {record.id: step(fits.on([record], bare)) for record in records}
     tolerances = {record.id: tolerance * float(np.max(np.abs(record.true_stress))) for record in records}
     verdict, reason = decide(
         parameters,
@@ -180,16 +180,16 @@ def certify(
     )
 
 
-def _pairs(trial: Trial, base: Fit, step: Callable[[Fit], Fit]) -> Iterator[tuple[Fit, FloatArray, Record]]:
+def _pairs(fits: CertificateFits, base: Fit, step: Callable[[Fit], Fit]) -> Iterator[tuple[Fit, FloatArray, Record]]:
     """What predicts what, and its covariance: the identified law every held-out record; else each by all others."""
-    campaign = trial.campaign
-    if campaign.held_out or trial.all_given:
+    campaign = fits.campaign
+    if campaign.held_out or fits.all_given:
         known = joint_covariance(base)
         for record in campaign.held_out or campaign.records:
             yield base, known, record
         return
     for record in campaign.records:
-        source = step(trial.fit(other for other in campaign.records if other.id != record.id))
+        source = step(fits.on(other for other in campaign.records if other.id != record.id))
         yield source, joint_covariance(source), record
 
 

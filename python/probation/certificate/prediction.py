@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.certificate.trial import companion_factor, free_parameters
+from probation.certificate.fits import companion_factor, free_parameters
 from probation.identify.modelled_record import ModelledRecord
 from probation.inference.measured_view import measured_view
 from probation.inference.modal_law import DnlrLaw
@@ -99,7 +99,7 @@ def predict(
     Parameters
     ----------
     covariance : ndarray, shape (free, free)
-        Of its parameters, `trial.joint_covariance`.
+        Of its parameters, `fits.joint_covariance`.
     tolerance : float
         Error that is let pass, as a fraction of the record's largest stress.
     excitation : Excitation

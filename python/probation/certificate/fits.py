@@ -39,13 +39,13 @@ PARAMETERS = 3
 
 
 @dataclass(frozen=True)
-class Trial:
+class CertificateFits:
     """How every fit of a certificate is made.
 
     Attributes
     ----------
     campaign : Campaign
-        Whose law is on trial.
+        Whose law is put to the test.
     excitation : str
         As in `probation.fit`.
     """
@@ -63,9 +63,9 @@ class Trial:
         """The law on the records with role "identify": identified, or as it is given."""
         if self.all_given:
             return given(self.campaign, self.scheme, excitation=self.excitation)
-        return self.fit(self.campaign.identify)
+        return self.on(self.campaign.identify)
 
-    def fit(self, records: Iterable[Record], law: LawSettings | None = None) -> Fit:
+    def on(self, records: Iterable[Record], law: LawSettings | None = None) -> Fit:
         """Identify on records, whatever their role, with the campaign's law or another."""
         chosen = self.campaign.identified_on([record.id for record in records])
         campaign = Campaign(self.campaign.name, chosen, law or self.campaign.law)
