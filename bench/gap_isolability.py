@@ -1,7 +1,7 @@
 """How near is what the isolability matrix predicts to full refits of the rival, and how long does it take?
 
 `python -m bench.gap_isolability`: about a minute. Two ramps, noise 1 MPa; forty pairs below 60 degrees drawn at
-random. The effect is there at its usual size, without noise; the rival is fitted with all base parameters and shapes
+random. The effect is there at its usual size, without noise; the rival is fitted with all base and nonlinear parameters
 free, from several starts, by scipy. What is left is compared with sqrt(lambda) sin(angle).
 """
 
@@ -48,9 +48,9 @@ def nearest(model, truth, rival):
         lower, upper = extended.bounds
         scale = np.append(np.abs(model.start), np.maximum(np.abs(form.typical), 1e-6))
         signs = (1.0,) if 0.0 in (form.amplitude.lower, form.amplitude.upper) else (1.0, -1.0)
-        for shapes in form.shapes_at(model.views)[:4]:
+        for nonlinear in form.nonlinear_starts(model.views)[:4]:
             for sign in signs:
-                values = shapes if form.threshold else (0.3 * sign * form.typical[0], *shapes)
+                values = nonlinear if form.threshold else (0.3 * sign * form.typical[0], *nonlinear)
                 start = np.clip(np.append(model.start, values), lower + 1e-12, upper - 1e-12)
                 try:
                     found = least_squares(
@@ -84,9 +84,9 @@ def refits():
         each, rival = found.effects[row], effect(found.names[column])
         acting = cause(each.name, each.form, each.records)
         there = model.with_causes([acting])
-        amplitude, *shapes = each.values.values()
+        amplitude, *nonlinear = each.values.values()
         left = min(
-            nearest(model, there.residual(there.parameters(model.start, (sign * amplitude, *shapes))), rival)
+            nearest(model, there.residual(there.parameters(model.start, (sign * amplitude, *nonlinear))), rival)
             for sign in ((1.0,) if each.one_sided else (1.0, -1.0))
         )
         predicted = each.detectability * np.sin(np.radians(found.angle[row, column]))

@@ -223,7 +223,7 @@ def draw_effect(effect: Effect, path: Path) -> None:
         without = model.predict(model.start)
         values = form.typical
         if form.starts is not None:  # instants, frequencies: from the records
-            starts = form.shapes_at([replace(view, data=without[view.id]) for view in views])
+            starts = form.nonlinear_starts([replace(view, data=without[view.id]) for view in views])
             start = starts[len(starts) // 2]
             values = start if form.threshold else (values[0], *start)
         changed = model.with_causes([Cause(effect, form)])

@@ -202,21 +202,21 @@ def test_the_jacobian_is_that_of_independent_differences(name, form, law):
 def test_at_zero_the_derivative_is_one_sided_where_the_amplitude_cannot_be_negative(name, form):
     """(f(a) - f(0)) / a tends to it: the error of the quotient halves with a."""
     extended = with_cause(name, form)
-    shapes = extended.causes[0].form.typical[1:]
+    nonlinear = extended.causes[0].form.typical[1:]
     start = model().start
-    slope = extended.jacobian(extended.parameters(start, (0.0, *shapes)))[:, 3]
-    still = extended.residual(extended.parameters(start, (0.0, *shapes)))
+    slope = extended.jacobian(extended.parameters(start, (0.0, *nonlinear)))[:, 3]
+    still = extended.residual(extended.parameters(start, (0.0, *nonlinear)))
     errors = []
     for part in (4e-3, 2e-3):
         size = part * extended.effect_parameters[0].scale
-        moved = extended.residual(extended.parameters(start, (size, *shapes)))
+        moved = extended.residual(extended.parameters(start, (size, *nonlinear)))
         errors.append(np.linalg.norm((moved - still) / size - slope) / np.linalg.norm(slope))
     assert errors[1] < 0.1
     assert errors[1] < 0.6 * errors[0] or errors[0] < 1e-6
 
 
 @pytest.mark.parametrize(
-    ("name", "one", "other", "shapes"),
+    ("name", "one", "other", "nonlinear"),
     [
         ("finite_extensibility", "gent", "langevin", ((), ())),
         ("stress_activated_flow", "eyring", "power", ((), (2.0,))),
@@ -227,12 +227,12 @@ def test_at_zero_the_derivative_is_one_sided_where_the_amplitude_cannot_be_negat
         ("force_drift", "over_record", "logarithmic", ((), (3.0,))),
     ],
 )
-def test_forms_of_one_effect_begin_alike(name, one, other, shapes):
+def test_forms_of_one_effect_begin_alike(name, one, other, nonlinear):
     """The same derivative at amplitude 0: they count as one cause and their amplitudes mean one thing."""
     slopes = []
-    for form, shape in zip((one, other), shapes, strict=True):
+    for form, own in zip((one, other), nonlinear, strict=True):
         extended = with_cause(name, form)
-        slopes.append(extended.jacobian(extended.parameters(model().start, (0.0, *shape)))[:, 3])
+        slopes.append(extended.jacobian(extended.parameters(model().start, (0.0, *own)))[:, 3])
     # held for 1e-4 tau_max: the fastest modes have relaxed a little; the other limits are not reached quite
     tolerance = {"prestress": 0.02, "damage": 0.02, "force_drift": 0.1}.get(name, 1e-3)
     assert np.linalg.norm(slopes[0] - slopes[1]) < tolerance * np.linalg.norm(slopes[0])

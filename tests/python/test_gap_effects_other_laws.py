@@ -79,7 +79,7 @@ def test_with_one_record_all_and_one_are_the_same_and_given_once():
     assert slips == {"recorded_section": here, "measured_section": here, "creeping": here, "progressive": None}
 
 
-def test_residuals_tell_where_shapes_begin():
+def test_residuals_tell_where_nonlinear_parameters_begin():
     """A wave of 0.0123 Hz in one record and a slip at 0.62 of another: the starts lie beside them."""
     wave, slip = cause("periodic_disturbance", "stress", "at-0.001"), cause("grip_slip", None, "at-0.005")
     truth = MODEL.with_causes([wave, slip])

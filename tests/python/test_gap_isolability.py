@@ -300,7 +300,7 @@ def test_refits_of_simulated_data_are_right_as_often_as_predicted():
     assert 0.6 < expected < 0.97
 
 
-def test_a_rival_is_tried_at_shapes_between_its_starts():
+def test_a_rival_is_tried_between_its_starts():
     """The rival's wave may have any frequency; its only start is far from the truth, its prior's grid is not."""
     parameter = EffectParameter("size_MPa", "MPa", -100.0, 100.0, 1.0, "made up")
     cycles = EffectParameter("cycles", "", 1.0, 1e3, 1.0, "any", centre=20.0, log=True, starts=(3.0,))

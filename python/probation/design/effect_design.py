@@ -114,7 +114,7 @@ class Design:
         return tuple(sorted((OmissionBias(*row) for row in rows), key=lambda bias: -abs(np.nan_to_num(bias.percent))))
 
     def smallest_seen(self, usual: EffectSignal, size: float) -> tuple[float, FloatArray] | None:
-        """Least amplitude that is seen, at the shapes of the usual signal of length `size`; and what is left of it.
+        """Least amplitude that is seen, with the nonlinear parameters of `usual`, of length `size`; and what is left.
 
         By the slope from zero and, where that fails (an effect with a threshold), by halving; None beyond the bounds,
         or beyond what the law can be solved with.

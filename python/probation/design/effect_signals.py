@@ -28,7 +28,7 @@ _ATTEMPTS = 4
 
 @dataclass(frozen=True, eq=False)
 class EffectSignal:
-    """What one cause of some size, at one start of its shapes, adds to the recorded stress.
+    """What one cause of some size, at one start of its nonlinear parameters, adds to the recorded stress.
 
     Attributes
     ----------
@@ -68,11 +68,11 @@ def effect_signals(
     threads: int = 1,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[list[EffectSignal], dict[str, str]]:
-    """Signals of effects of usual size, one for every form and start of its shapes, on top of the model as it is.
+    """Signals of effects of usual size, on top of the model as it is: for every form and start of nonlinear parameters.
 
-    With them the same at a fiftieth of the size and at further shapes, as rivals may have them, where the starts of
-    a form are a grid and not a function. In all records with one amplitude; a form that can sit in single records
-    only: in each of them.
+    With them the same at a fiftieth of the size and at further nonlinear parameters, as rivals may have them, where the
+    starts of a form are a grid and not a function. In all records with one amplitude; a form that can sit in single
+    records only: in each of them.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def effect_signals(
                 for form in _placed_forms(effect)
                 if form.visible_in(model.views) and not model.missing_capabilities(Cause(effect, form))
                 for records, views in _places(model, effect, form)
-                for values, usual in _sizes_and_shapes(form, views)
+                for values, usual in _values_tried(form, views)
             ]
         except UNSOLVABLE as error:
             unsolvable[effect.name] = str(error)
@@ -206,29 +206,29 @@ def _places(
     return [((view.id,), (view,)) for view in model.views]
 
 
-def _sizes_and_shapes(form: Form, views: tuple[RecordView, ...]) -> list[tuple[tuple[float, ...], bool]]:
+def _values_tried(form: Form, views: tuple[RecordView, ...]) -> list[tuple[tuple[float, ...], bool]]:
     """Values, and whether they are of usual size at a start; a threshold's own amplitudes."""
-    starts = form.shapes_at(views)
+    starts = form.nonlinear_starts(views)
     if form.threshold:
         return [(values, True) for values in starts]
     size = usual_size(form.amplitude)
-    found = [((size, *shapes), True) for shapes in starts]
+    found = [((size, *nonlinear), True) for nonlinear in starts]
     if form.starts is not None:
         return found
     if form.needs_solve:
-        found += [((DESIGN.small_part * size, *shapes), False) for shapes in starts]
-    return found + [((size, *shapes), False) for shapes in _further_shapes(form) if shapes not in starts]
+        found += [((DESIGN.small_part * size, *nonlinear), False) for nonlinear in starts]
+    return found + [((size, *nonlinear), False) for nonlinear in _further_values(form) if nonlinear not in starts]
 
 
-def _further_shapes(form: Form) -> list[tuple[float, ...]]:
-    """A grid over what the priors of the shapes expect."""
-    steps = DESIGN.further_shapes if len(form.parameters) < 3 else DESIGN.further_shapes[1::2]
+def _further_values(form: Form) -> list[tuple[float, ...]]:
+    """A grid over what the priors of the nonlinear parameters expect."""
+    steps = DESIGN.further_values if len(form.parameters) < 3 else DESIGN.further_values[1::2]
     grid: list[tuple[float, ...]] = [()]
-    for shape in form.parameters[1:]:
-        if not np.isfinite(shape.scale):
+    for parameter in form.parameters[1:]:
+        if not np.isfinite(parameter.scale):
             return []
-        centre = shape.to_search(shape.centre)
-        values = [shape.from_search(centre + step * shape.scale) for step in steps]
-        inside = dict.fromkeys(min(max(value, shape.lower), shape.upper) for value in values)
+        centre = parameter.to_search(parameter.centre)
+        values = [parameter.from_search(centre + step * parameter.scale) for step in steps]
+        inside = dict.fromkeys(min(max(value, parameter.lower), parameter.upper) for value in values)
         grid = [(*point, value) for point in grid for value in inside]
     return grid if form.parameters[1:] else []

@@ -38,8 +38,8 @@ def isolability(
 
     Every effect is taken at its usual size (one scale of its prior, first form, a middle one of its starts), with what
     it really adds at that size, not its derivative. The base parameters are refitted (linearly), so that only what
-    they cannot take up counts. A rival may take any of its forms, on a grid of its shapes, small or of usual size, at
-    any amplitude within its bounds. The stresses of the records are not looked at.
+    they cannot take up counts. A rival may take any of its forms, on a grid of its nonlinear parameters, small or of
+    usual size, at any amplitude within its bounds. The stresses of the records are not looked at.
 
     Parameters
     ----------

@@ -84,7 +84,7 @@ class GapTester:
     whitened : Whitened
     directions : dict of str to ndarray, shape (N,) or (N, m), optional
         Whitened, unprojected sensitivities of the model along effects' amplitudes; several columns are tried one by
-        one (the shapes that an effect may have).
+        one (the nonlinear parameters that an effect may have).
     scatter : UncertainScatter, optional
         How far specimens differ, as replicates leave it open; left out, it is in the noise as estimated.
     size : int, optional

@@ -64,7 +64,7 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
         notes.append(f"the records want amplitudes that differ by {100.0 * scatter:.0f} %")
     low, high = found.at_bound
     for index, name in enumerate(found.model.parameter_names[found.model.base_count :], found.model.base_count):
-        # An amplitude at zero is an effect that is not there; a shape at its bound asks for another form.
+        # An amplitude at zero is an effect that is not there; a nonlinear parameter at its bound asks for another form.
         if low[index] or high[index]:
             notes.append(f"{name.rsplit('.', 1)[-1]} ended at its {'lower' if low[index] else 'upper'} bound")
     for name in dict.fromkeys(cause.effect.name for cause in hypothesis.causes):

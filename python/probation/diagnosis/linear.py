@@ -80,5 +80,5 @@ def _at_zero(base: BaseFit, columns: WhitenedColumns, index: int) -> Refit:
 
 
 def _sharp(found: Refit) -> bool:
-    """Whether a shape may lie anywhere, so that the data choose it: a frequency, an instant."""
+    """Whether a nonlinear parameter may lie anywhere, so that the data choose it: a frequency, an instant."""
     return any(not np.isfinite(each.scale) for each in found.model.effect_parameters[1:])

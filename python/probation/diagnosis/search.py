@@ -210,7 +210,7 @@ class Search:
             model = self.base.model.with_causes(pair)
             views = [view for view in model.views if pair[0].touches(view.id)]
             residuals = [residual[model.rows(view.id)] for view in views]
-            for starts in product(*(each.form.shapes_at(views, residuals)[: SEARCH.starts] for each in pair)):
+            for starts in product(*(each.form.nonlinear_starts(views, residuals)[: SEARCH.starts] for each in pair)):
                 jobs.append((model, model.parameters(self.base.refit.parameters, *starts)))
         begun = sorted(self._solved(jobs, SEARCH.first_steps), key=lambda each: each.chi_square)
         return self._further(begun[: SEARCH.starts], MOST_STEPS)
@@ -688,7 +688,7 @@ def _in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
     """Of each effect its starts in all records where it gains: what acts in several is not quite alike in them.
 
     Specimens have sections of their own, and a slip its own instant. So each record has its own best start, and its own
-    best smooth one: a step is far from what takes its time. And once more all have the same form from the same shapes,
+    best smooth one: a step is far from what takes its time. And once more all have the same form from the same values,
     those that gain most together: a start that is best in one record by itself may be far from what acts there.
     """
     best: dict[tuple[str, bool], dict[tuple[str, ...], Candidate]] = {}

@@ -130,7 +130,7 @@ class Form:
     name : str
         Of the form: "gent".
     parameters : tuple of EffectParameter
-        The first is the amplitude, 0 where the effect is absent; the others are shapes.
+        The first is the amplitude, 0 where the effect is absent; the others are nonlinear parameters.
     modification : callable, optional
         ``modification(view, values)``: what changes in the law along a record, an `Modification` (or None).
     driving_strain : callable, optional
@@ -151,11 +151,11 @@ class Form:
         Whether the fault may sit in all records with one amplitude, in a single one, or either. Empty: all for a
         material's effect, either for a rig's.
     starts : callable, optional
-        ``starts(views, residuals)``: shapes (without amplitude) where searches begin, from the records it is to sit in
-        and, if there are any, the fit residuals (model - data) left there. Left out: the grid of `parameters`.
+        ``starts(views, residuals)``: nonlinear parameters where searches begin, from the records it is to sit in and,
+        if there are any, the fit residuals (model - data) left there. Left out: the grid of `parameters`.
     threshold : bool
         The effect sets in beyond some amplitude, so that its derivative at 0 says nothing: `starts` gives the
-        amplitude first, then the shapes, and screens take the secant.
+        amplitude first, then the nonlinear parameters, and screens take the secant.
     sharp : {"line", "step", "strain_period"}, optional
         The effect shows as a line of one frequency, a step at one instant or with one period in the strain, and is only
         sought in records that have one: among all frequencies, instants or periods chance always finds something.
@@ -163,7 +163,8 @@ class Form:
         ``needs(views)``: whether records like these could show it at all, such as an unloading; left out: any could.
         Where none of an effect's forms could be seen, the effect is not considered, and costs no probability.
     several : bool
-        Whether it may act in several records, in each with shapes of its own; not where a shape is the material's.
+        Whether it may act in several records, in each with nonlinear parameters of its own; not where one of
+        these is the material's.
     variant : bool
         A further form, tried where there is a gap. The test for one goes without it: what it looks for is found along
         the effect's other forms and along smooth waves, and more directions would be found in more noise.
@@ -208,11 +209,11 @@ class Form:
 
     @property
     def typical(self) -> tuple[float, ...]:
-        """Values of an effect of usual size: the amplitude's prior scale, the shapes' first starts."""
+        """Values of an effect of usual size: the amplitude's prior scale, the first starts of the nonlinear ones."""
         amplitude = self.amplitude
         size = amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
-        shapes = (parameter.starts[0] if parameter.starts else parameter.centre for parameter in self.parameters[1:])
-        return (min(size, amplitude.upper), *shapes)
+        nonlinear = (parameter.starts[0] if parameter.starts else parameter.centre for parameter in self.parameters[1:])
+        return (min(size, amplitude.upper), *nonlinear)
 
     @property
     def needs_solve(self) -> bool:
@@ -223,10 +224,10 @@ class Form:
         """Whether records like these could show it at all."""
         return self.needs is None or self.needs(views)
 
-    def shapes_at(
+    def nonlinear_starts(
         self, views: Sequence[RecordView], residuals: Sequence[FloatArray] | None = None
     ) -> list[tuple[float, ...]]:
-        """Where searches begin: shapes, in the order of `parameters`; with the amplitude in front for a threshold."""
+        """Where searches begin: the nonlinear parameters in their order; for a threshold the amplitude in front."""
         if self.starts is not None:
             return self.starts(views, residuals)
         grid: list[tuple[float, ...]] = [()]

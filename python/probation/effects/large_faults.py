@@ -65,8 +65,8 @@ def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple
     """The form under another name, its amplitude with another prior and bounds; `starts` of the amplitude."""
     known = form.amplitude
     wide = replace(known, scale=scale, lower=lower, upper=upper, reason="a gross fault", starts=())
-    shapes = form.shapes_at(())
-    grid = [(start, *shape) for start in starts for shape in shapes] if starts else shapes
+    nonlinear = form.nonlinear_starts(())
+    grid = [(start, *others) for start in starts for others in nonlinear] if starts else nonlinear
     return replace(
         form,
         name=f"large_{form.name}",
@@ -106,7 +106,7 @@ def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
 def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:
     # Slack ends between two samples, where the force begins to rise.
     large = _of_travel(replace(effect.form("slack"), driving_strain=crosshead_slack), size.elongation)
-    fixed = large.shapes_at(())
+    fixed = large.nonlinear_starts(())
 
     def starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
         del residuals

@@ -210,9 +210,9 @@ class BaseFit:
         threads: int = 1,
         unsolved: Callable[[Cause, Exception], None] | None = None,
     ) -> WhitenedColumns:
-        """The signals, variants, and those whose shapes begin where the residual says; `unsolved` as in `screen`.
+        """The signals, variants, and those whose nonlinear parameters begin where the residual says.
 
-        For a search only: in a gap test they would find what chance put there.
+        `unsolved` is that of `screen`. For a search only: in a gap test they would find what chance put there.
         """
         more = screen(
             self.model,

@@ -29,7 +29,7 @@ class Candidate:
     ----------
     cause : Cause
     values : tuple of float
-        Of its parameters: the amplitude that the linearised model wants, and the shapes.
+        Of its parameters: the amplitude that the linearised model wants, and the nonlinear parameters.
     gain : float
         By how much the linearised objective falls.
     base : ndarray, shape (n_base,), optional

@@ -24,7 +24,7 @@ _Key: TypeAlias = tuple[str, str, tuple[float, ...]]
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """How the recorded stress answers to the amplitude of one cause at one start of its shapes.
+    """How the recorded stress answers to the amplitude of one cause at one start of its nonlinear parameters.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ def screen(
         Of the model.
     effects : iterable of Effect
     residual : ndarray, shape (n_samples,) [MPa], optional
-        Fit residual from which starts of the shapes may be read; without it they come from a grid.
+        Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
     placements : tuple of {"all", "one"}
         With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
     threads : int
@@ -156,7 +156,7 @@ def _placed(
 def _starts(
     model: CampaignModel, form: Form, views: tuple[RecordView, ...], residual: FloatArray | None
 ) -> list[tuple[float, ...]]:
-    """Values where the columns are taken: amplitude 0 (or a threshold's own), and the shapes."""
+    """Values where the columns are taken: amplitude 0 (or a threshold's own), and the nonlinear parameters."""
     residuals = None if residual is None else [residual[model.rows(view.id)] for view in views]
-    shapes = form.shapes_at(views, residuals)
-    return shapes if form.threshold else [(0.0, *each) for each in shapes]
+    starts = form.nonlinear_starts(views, residuals)
+    return starts if form.threshold else [(0.0, *each) for each in starts]

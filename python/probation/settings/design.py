@@ -23,7 +23,7 @@ class DesignSettings:
     small_part: float = chosen(
         0.02, "usual size", "Part of the usual size that shows what an effect looks like where it is small."
     )
-    further_shapes: tuple[float, ...] = chosen(
+    further_values: tuple[float, ...] = chosen(
         (-1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5),
         "prior scales",
         "Prior scales off the centre at which nonlinear parameters are tried in addition to their starts; of two such "

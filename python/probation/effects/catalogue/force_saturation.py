@@ -64,11 +64,11 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     return [(1.0 / (part * largest),) for part in (0.995, 0.9)] if largest > 0.0 else []
 
 
-def _soft_starts(shapes: tuple[float, ...]) -> StartsHook:
-    """The same limits, each with every one of these shapes."""
+def _soft_starts(softnesses: tuple[float, ...]) -> StartsHook:
+    """The same limits, each with every one of these softnesses."""
 
     def starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-        return [(*start, shape) for start in _starts(views, residuals) for shape in shapes]
+        return [(*start, softness) for start in _starts(views, residuals) for softness in softnesses]
 
     return starts
 
