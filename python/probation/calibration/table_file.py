@@ -36,7 +36,7 @@ def read_rate_table(path: Path) -> RateTable | None:
     Returns
     -------
     RateTable or None
-        None where the file has no column of rates beside one of tau_max: it is something else.
+        None where the file has no column of rates with one of tau_max: it is something else.
 
     Raises
     ------

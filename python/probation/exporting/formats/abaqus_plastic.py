@@ -1,4 +1,4 @@
-"""Abaqus: ``*PLASTIC, RATE=`` beside ``*ELASTIC``."""
+"""Abaqus: ``*PLASTIC, RATE=`` with ``*ELASTIC``."""
 
 from __future__ import annotations
 

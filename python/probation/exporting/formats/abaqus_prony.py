@@ -1,4 +1,4 @@
-"""Abaqus: ``*VISCOELASTIC, TIME=PRONY`` beside ``*ELASTIC, MODULI=INSTANTANEOUS``."""
+"""Abaqus: ``*VISCOELASTIC, TIME=PRONY`` with ``*ELASTIC, MODULI=INSTANTANEOUS``."""
 
 from __future__ import annotations
 

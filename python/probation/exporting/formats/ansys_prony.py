@@ -1,4 +1,4 @@
-"""ANSYS: ``TB,PRONY`` beside ``MP,EX`` and ``MP,NUXY``."""
+"""ANSYS: ``TB,PRONY`` with ``MP,EX`` and ``MP,NUXY``."""
 
 from __future__ import annotations
 
