@@ -10,6 +10,7 @@ from campaigns.typical_results import FURTHER, NAMES, result
 from probation import InputError, StressBand, init_campaign, preview, reduce_spectrum
 from probation.certificate.result import Certificate
 from probation.diagnosis.result import Diagnosis
+from probation.exporting.result import Export, Exports
 from probation.histories import named_history
 from probation.identify.result import Fit
 from probation.results.data import CURVE, LEFT_OUT, Stored, WithCurves, encoded, from_curves
@@ -49,6 +50,18 @@ def test_what_has_no_text_comes_back_with_its_numbers():
         assert again.to_json() == done.to_json()
         assert encoded(again) == encoded(done)
     assert json.loads(fit.sample(20).to_json())["draws"].keys() == set(fit.sample(20).names)
+
+
+def test_one_law_in_several_formats_comes_back_with_their_files():
+    """As `probation export --format all --json` writes them; an `Export` is read of a text that holds one."""
+    kinds = ("the whole law", "a linear part with fewer modes", "flow curves")
+    done = Exports(tuple(result(f"export of {kind}") for kind in kinds))
+    again = Exports.from_json(done.to_json())
+    assert again.to_json() == done.to_json()
+    assert [each.text for each in again.exports] == [each.text for each in done.exports]
+    assert [each.summary() for each in again.exports] == [each.summary() for each in done.exports]
+    with pytest.raises(InputError, match=r"found 3 exports, expected one; Exports\.from_json reads several"):
+        Export.from_json(done.to_json())
 
 
 def test_a_band_that_is_not_known_comes_back_without_an_end():
