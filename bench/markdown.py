@@ -10,7 +10,8 @@ def lines(found: Findings, machine: dict[str, object]) -> list[str]:
     states = [target.met(found) for target in GOALS]
     where = f"{machine['cpu']}, {machine['processors']} processors, {machine['compiler']}, kernels {machine['kernels']}"
     return [
-        f"{where}; commit {machine['commit']}. {states.count(True)} of {len(states)} rows met.",
+        f"{where}; commit {machine['commit']}.",
+        f"{states.count(True)} of {len(states)} rows met.",
         "",
         "| aim | wanted | reached | | what limits it |",
         "|---|---|---|---|---|",
