@@ -1,8 +1,11 @@
 """How long does a user wait? Wall time of whole programs, and their processor time, user and system.
 
 `python -m bench.waiting [ROW …]`: all rows, or those that are named; each several times in a process of its own, the
-least is taken. Wall time means something only where nothing else runs. A run of the bench leaves it out: it takes two
-minutes. `bench.from_source` measures the build.
+least is taken. A diagnosis runs on one processor, then in two copies of the process. Wall time means something only
+where nothing else runs. A run of the bench leaves it out: it takes minutes. `bench.from_source` measures the build.
+
+"fresh clone" runs only where it is named: `make demo` in a clone of the last commit, which downloads packages and
+builds the engine.
 """
 
 from __future__ import annotations
@@ -32,6 +35,11 @@ NOISE = 0.05
 
 RATES = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05)
 REPEATS = 3
+THREADS = (1, 2)
+"""Of a diagnosis, side by side."""
+
+ROOT = Path(__file__).resolve().parents[1]
+FRESH = "fresh clone"
 
 GOALS = {
     "import": 0.4,
@@ -39,6 +47,7 @@ GOALS = {
     "fit": 0.9,
     "certify": 5.0,
     "demo": 120.0,
+    FRESH: 120.0,
     "weak gap": 5.0,
     "strong gap": 10.0,
     "replicates": 30.0,
@@ -111,25 +120,28 @@ def commands(folder: Path) -> dict[str, list[str]]:
         "fit": [*program, "fit", file_of(folder, "long", 0.003, 1500)],
         "certify": [*program, "certify", one, two],
         "demo": [*program, "demo", "--out", str(folder / "demo")],
-        **{name: [*itself, name] for name in DIAGNOSED},
+        **{f"{name}, threads={count}": [*itself, name, str(count)] for name in DIAGNOSED for count in THREADS},
+        FRESH: ["sh", "-c", 'git clone -q "$0" "$1" && make -C "$1" demo', str(ROOT), str(folder / "clone")],
     }
 
 
 def main(wanted: list[str]) -> int:
     """Print a line for each row; 1 if one takes longer than wanted."""
     if wanted[:1] == ["--diagnose"]:
-        probation.diagnose(campaign(DIAGNOSED[wanted[1]]))
+        probation.diagnose(campaign(DIAGNOSED[wanted[1]]), threads=int(wanted[2]))
         return 0
+    wanted = wanted or [row for row in GOALS if row != FRESH]
     slow = False
     with tempfile.TemporaryDirectory() as name:
         for row, command in commands(Path(name)).items():
-            if wanted and row not in wanted:
+            what = row.split(",")[0]
+            if what not in wanted:
                 continue
-            repeats = 1 if GOALS[row] > REPEATS else REPEATS
+            repeats = 1 if GOALS[what] > REPEATS else REPEATS
             wall, processor = min(seconds(command) for _ in range(repeats))
-            slow |= wall > GOALS[row]
-            wanted_here = f"wanted: {GOALS[row]:g} s on two idle cores"
-            print(f"{row:12} {wall:6.2f} s, of the processor {processor:6.2f} s ({wanted_here})", flush=True)
+            slow |= wall > GOALS[what]
+            wanted_here = f"wanted: {GOALS[what]:g} s on two idle cores"
+            print(f"{row:23} {wall:6.2f} s, of the processor {processor:6.2f} s ({wanted_here})", flush=True)
     return int(slow)
 
 
