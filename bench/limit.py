@@ -14,8 +14,8 @@ from bench.python import engine
 from bench.rows import Findings, Progress
 from bench.timing import take_turns
 
-VECTORS, SLAVED_VECTORS = 13, 7
-NEEDED = {"be2": 3 * VECTORS, "sa2": 2 * VECTORS, "sa3": 2 * VECTORS, "slaved": 2 * SLAVED_VECTORS}
+VECTORS, INTEGRATED_VECTORS = 13, 7
+NEEDED = {"be2": 3 * VECTORS, "sa2": 2 * VECTORS, "sa3": 2 * VECTORS, "quasi_steady": 2 * INTEGRATED_VECTORS}
 """Multiply-adds of one vector, per step."""
 
 LABELS = {"be2": "bE2", "sa2": "SA2", "sa3": "SA3"}
@@ -39,12 +39,12 @@ def run(found: Findings, progress: Progress, quick: bool) -> None:
     calls |= {scheme: engine.prepare(case, scheme) for scheme in LABELS}
     timings = take_turns(calls, 5 if quick else 25)
     for key, needed in NEEDED.items():
-        what = "SA3, quasi-steady fast modes" if key == "slaved" else LABELS[key]
+        what = "SA3, quasi-steady fast modes" if key == "quasi_steady" else LABELS[key]
         label = f"limit of {what}: {needed} multiply-adds a step"
         found.rows.append(row("limit", case.name, f"limit_{key}", label, timings[f"limit_{key}"], {}))
     for scheme, name in LABELS.items():
         entry = row("limit", case.name, scheme, f"engine {name}", timings[scheme], {})
         entry.ratios["limit"] = timings[scheme].over(timings[f"limit_{scheme}"])
         if scheme != "be2":
-            entry.ratios["slaved limit"] = timings[scheme].over(timings["limit_slaved"])
+            entry.ratios["quasi-steady limit"] = timings[scheme].over(timings["limit_quasi_steady"])
         found.rows.append(entry)

@@ -37,8 +37,8 @@ def _limits(found: Findings) -> list[str]:
     head = "| even steps | time | fraction of the FMA limit | with quasi-steady fast modes |"
     out = [head, "|---|---|---|---|"]
     for row in rows:
-        slaved = row.ratios.get("slaved limit")
-        part = "" if slaved is None else f"{1 / slaved:.0%}"
+        quasi_steady = row.ratios.get("quasi-steady limit")
+        part = "" if quasi_steady is None else f"{1 / quasi_steady:.0%}"
         out.append(f"| {row.label} | {row.best * 1e6:.3g} µs | {1 / row.ratios['limit']:.0%} | {part} |")
     return [*out, ""]
 

@@ -103,8 +103,8 @@ def _plain(found: Findings, section: str, title: str) -> list[str]:
             extra = f"  {row.ratios['chosen']:.2f} x those chosen here"
         if "limit" in row.ratios:
             extra = f"  {1 / row.ratios['limit']:.0%} of the limit"
-        if "slaved limit" in row.ratios:
-            extra += f", {1 / row.ratios['slaved limit']:.0%} with quasi-steady fast modes"
+        if "quasi-steady limit" in row.ratios:
+            extra += f", {1 / row.ratios['quasi-steady limit']:.0%} with quasi-steady fast modes"
         if "one thread" in row.ratios:
             extra = f"  {row.ratios['one thread']:.2f} x as fast as one thread into a used output"
         if row.note:

@@ -99,11 +99,11 @@ void CoefficientTable::enter(CoefficientCell& cell) {
   }
   const double* rows = blocks_[block].rows.data() + skipped;
   cell.rows = {rows, curved_ ? rows + terms * entries_ : nullptr, static_cast<long>(entries_)};
-  cell.slaved = 0;
+  cell.quasi_steady = 0;
   const double least = forgotten / (cell.centre * (1.0 - kernels::CoefficientRows::reach));
-  while (exponential_ && cell.slaved < modes_.padded() &&
-         (modes_.inverse_ratio.segment<4>(cell.slaved) >= least).all())
-    cell.slaved += 4;
+  while (exponential_ && cell.quasi_steady < modes_.padded() &&
+         (modes_.inverse_ratio.segment<4>(cell.quasi_steady) >= least).all())
+    cell.quasi_steady += 4;
   kernels::best().weigh_rows(modes_.view(), cell.rows, cell.by_forcing, cell.by_curvature);
 }
 

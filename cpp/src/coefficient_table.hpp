@@ -24,7 +24,7 @@ struct CoefficientCell {
   std::int64_t block = none;  ///< which block of rows it looks into
   double centre = 0.0, inverse_centre = 0.0;
   kernels::CoefficientRows rows{};
-  int slaved = 0;  ///< as in kernels::NearStep
+  int quasi_steady = 0;  ///< as in kernels::NearStep
   double by_forcing[kernels::CoefficientRows::terms], by_curvature[kernels::CoefficientRows::terms];
 
   double distance(double scale) const { return scale * inverse_centre - 1.0; }

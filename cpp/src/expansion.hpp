@@ -61,7 +61,7 @@ struct ExpandedStep {
     cell = to;
     if (!cell) return;
     near.rows = cell->rows;
-    near.slaved = cell->slaved;
+    near.quasi_steady = cell->quasi_steady;
   }
   bool reaches(double scale) const {
     return cell && std::abs(cell->distance(unit * scale)) <= kernels::CoefficientRows::reach;

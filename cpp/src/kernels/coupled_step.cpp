@@ -140,7 +140,7 @@ StepSlopes linearise_by(const Modes modes, const OneStep step, double* rows) {
 
 void look(const Modes& modes, const NearStep& next, StressNearby& found) {
   if (next.exponential)
-    return pass<ExponentialNear<false>, false, true>(modes, next.slaved, next, next, found);
+    return pass<ExponentialNear<false>, false, true>(modes, next.quasi_steady, next, next, found);
   pass<RationalNear, false, true>(modes, 0, next, next, found);
 }
 
@@ -148,7 +148,7 @@ void advance(const Modes& modes, const NearStep& taken, const NearStep* next, St
   const bool curved = taken.rows.curvature != nullptr;
   if (next && next->exponential == taken.exponential) {
     if (!taken.exponential) return pass<RationalNear, true, true>(modes, 0, taken, *next, found);
-    const int first = taken.slaved < next->slaved ? taken.slaved : next->slaved;
+    const int first = taken.quasi_steady < next->quasi_steady ? taken.quasi_steady : next->quasi_steady;
     if (curved) return pass<ExponentialNear<true>, true, true>(modes, first, taken, *next, found);
     return pass<ExponentialNear<false>, true, true>(modes, first, taken, *next, found);
   }

@@ -80,7 +80,8 @@ struct NearStep {
   double scale;         ///< where exponential
   double here, before;  ///< where not
   double forcing, curvature;
-  int slaved;  ///< how many modes (the first ones, a multiple of four) are quasi-steady: slaved.hpp
+  int quasi_steady;  ///< how many modes (the first ones, a multiple of four) are quasi-steady:
+                     ///< quasi_steady.hpp
 };
 
 /// Contribution of the modes' states before a step to the stress after it: sum_j z_j+ for U = V = 0 is the

@@ -1,8 +1,8 @@
 // Stress and its tangent along a direction in which the time scale alone moves, states and slopes in
 // registers. Compiled once per instruction set.
 
+#include "quasi_steady.hpp"
 #include "scale_table.hpp"
-#include "slaved.hpp"
 #include "sweeps.hpp"
 #include "uneven_bdf2.hpp"
 
@@ -139,9 +139,9 @@ void bdf2_sweep(const Modes& modes, const Steps& steps, double* stress, const Ta
 
 void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress,
                   const TangentDirection& d) {
-  const SlavedModes slaved(modes, tabled.lowest);
-  slaved.sweep_with_slope(modes, steps, stress, d);
-  in_blocks<largest_block>(slaved.from, slaved.to, [&](auto size, int at) {
+  const QuasiSteadyModes quasi_steady(modes, tabled.lowest);
+  quasi_steady.sweep_with_slope(modes, steps, stress, d);
+  in_blocks<largest_block>(quasi_steady.from, quasi_steady.to, [&](auto size, int at) {
     constexpr int K = decltype(size)::value;
     if (steps.curvature)
       tabled_block<true, K>(modes, steps, tabled, at, stress, d);

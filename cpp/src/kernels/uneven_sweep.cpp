@@ -1,8 +1,8 @@
 // Eq. (6) in the variables of schemes/step.hpp.
 // Steps of any length: every step has its own coefficients. Compiled once per instruction set.
 
+#include "quasi_steady.hpp"
 #include "scale_table.hpp"
-#include "slaved.hpp"
 #include "sweeps.hpp"
 #include "uneven_bdf2.hpp"
 
@@ -109,9 +109,9 @@ void tabled_block(const Modes& modes, const Steps& steps, const TabledSteps& tab
 }
 
 void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tabled, double* stress) {
-  const SlavedModes slaved(modes, tabled.lowest);
-  slaved.sweep(modes, steps, stress);
-  in_blocks<largest_block>(slaved.from, slaved.to, [&](auto size, int at) {
+  const QuasiSteadyModes quasi_steady(modes, tabled.lowest);
+  quasi_steady.sweep(modes, steps, stress);
+  in_blocks<largest_block>(quasi_steady.from, quasi_steady.to, [&](auto size, int at) {
     constexpr int K = decltype(size)::value;
     if (steps.curvature)
       tabled_block<true, K>(modes, steps, tabled, at, stress);

@@ -1,5 +1,5 @@
 #pragma once
-// Quasi-steady ("slaved") modes, so fast that nothing of their state is left after a step: e^-x is below
+// Quasi-steady modes, so fast that nothing of their state is left after a step: e^-x is below
 // rounding, and the exponential rule is
 //
 //   phi = 1 / x,   psi = 1 / x - 2 / x^2,   sum z+ = (U + V) sum p / x - 2 V sum p / x^2.
@@ -8,21 +8,21 @@
 
 namespace probation::kernels::PROBATION_ISA {
 
-constexpr double slaved_from = 36.8;  // e^-x < 2^-53
+constexpr double quasi_steady_from = 36.8;  // e^-x < 2^-53
 
-/// The modes from..to, by vectors, keep their states; those outside are slaved. sum p / q and sum p /
+/// The modes from..to, by vectors, keep their states; those outside are quasi-steady. sum p / q and sum p /
 /// q^2 are theirs, q = inverse_ratio.
-struct SlavedModes {
+struct QuasiSteadyModes {
   int from, to;
   double first = 0.0, second = 0.0;
 
   /// For steps no smaller than `scale`.
-  SlavedModes(const Modes& modes, double scale) : from(0), to(modes.padded) {
-    const auto slaved = [&](int at) {
-      return all_above(load(modes.inverse_ratio + at) * scale, slaved_from);
+  QuasiSteadyModes(const Modes& modes, double scale) : from(0), to(modes.padded) {
+    const auto quasi_steady = [&](int at) {
+      return all_above(load(modes.inverse_ratio + at) * scale, quasi_steady_from);
     };
-    while (from < to && slaved(from)) from += lanes;
-    while (to > from && slaved(to - lanes)) to -= lanes;
+    while (from < to && quasi_steady(from)) from += lanes;
+    while (to > from && quasi_steady(to - lanes)) to -= lanes;
     Vector totals[2] = {};
     for_each(modes, [&](int at) {
       const Vector q = load(modes.inverse_ratio + at), share = load(modes.weight + at) / q;
