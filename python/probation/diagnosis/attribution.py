@@ -104,8 +104,8 @@ class Attribution:
     @property
     def undivided(self) -> tuple[str, ...]:
         """Effects of the best explanation that can stand in for each other, the one that closes most alone first."""
-        among = [each for each in self.effects if each.interchangeable]
-        return tuple(each.name for each in sorted(among, key=lambda each: -(each.alone or 0.0)))
+        among = [effect for effect in self.effects if effect.interchangeable]
+        return tuple(effect.name for effect in sorted(among, key=lambda effect: -(effect.alone or 0.0)))
 
 
 def attribution(
@@ -136,8 +136,8 @@ def attribution(
         named = tuple(name for name in known if name in {*named, *undivided})
     shares = _shares(named, known, closed)
     entries = []
-    for name in dict.fromkeys([*best.effects, *(name for each in weighed for name in each.effects)]):
-        probability = min(sum(each.probability for each in weighed if name in each.effects), 1.0)
+    for name in dict.fromkeys([*best.effects, *(name for explanation in weighed for name in explanation.effects)]):
+        probability = min(sum(explanation.probability for explanation in weighed if name in explanation.effects), 1.0)
         inside = name in known
         if name not in best.effects and probability < EVIDENCE.probability_worth_naming:
             continue
@@ -156,7 +156,7 @@ def attribution(
                 interchangeable=name in undivided,
             )
         )
-    entries.sort(key=lambda each: (-each.share, -each.probability))
+    entries.sort(key=lambda entry: (-entry.share, -entry.probability))
     return Attribution(
         effects=tuple(entries),
         named=tuple(sorted(named, key=lambda name: -shares[name])),
@@ -167,20 +167,20 @@ def attribution(
 
 def _probability(effects: AbstractSet[str], weighed: Sequence[Weighed]) -> float:
     """That all of them are in the right explanation."""
-    return min(sum(each.probability for each in weighed if effects <= {*each.effects}), 1.0)
+    return min(sum(explanation.probability for explanation in weighed if effects <= {*explanation.effects}), 1.0)
 
 
 def _probability_within(effects: AbstractSet[str], weighed: Sequence[Weighed]) -> float:
     """That all of them act if nothing outside the catalogue does: an unknown says nothing of which of them act."""
-    catalogued = [each for each in weighed if UNKNOWN not in each.effects]
-    return _probability(effects, catalogued) / max(sum(each.probability for each in catalogued), 1e-300)
+    catalogued = [explanation for explanation in weighed if UNKNOWN not in explanation.effects]
+    return _probability(effects, catalogued) / max(sum(explanation.probability for explanation in catalogued), 1e-300)
 
 
 def _parts(
-    base: BaseFit, best: Hypothesis, known: tuple[str, ...], found: Sequence[Hypothesis], threads: int
+    base: BaseFit, best: Hypothesis, known: tuple[str, ...], hypotheses: Sequence[Hypothesis], threads: int
 ) -> dict[tuple[str, ...], Refit | None]:
     """Refits of law and effects for every part of the best explanation, smaller ones first; None if unsolvable."""
-    solved = {frozenset(cause_key(cause) for cause in each.causes): each.refit for each in found}
+    solved = {frozenset(cause_key(cause) for cause in hypothesis.causes): hypothesis.refit for hypothesis in hypotheses}
     parts = [part for size in range(1, len(known)) for part in combinations(known, size)]
 
     def begun(part: tuple[str, ...]) -> tuple[Problem, FloatArray | Refit]:
@@ -214,25 +214,25 @@ def _squares(base: BaseFit, parts: Mapping[tuple[str, ...], Refit | None]) -> di
     part never close more than the whole.
     """
     squares: dict[tuple[str, ...], float] = {}
-    for part, each in parts.items():
+    for part, fit in parts.items():
         # What cannot be solved closes no more than its own parts do.
         below = [squares[smaller] for smaller in squares if {*smaller} < {*part}]
-        squares[part] = _mean_square(base, each) if each is not None else min(below)
+        squares[part] = _mean_square(base, fit) if fit is not None else min(below)
     return squares
 
 
-def _mean_square(base: BaseFit, found: Refit) -> float:
+def _mean_square(base: BaseFit, fit: Refit) -> float:
     """Of the errors on the fitted records [MPa^2]; of the whitened ones where specimens differ."""
     if _differ(base):
-        return found.chi_square / len(found.residual)
-    return float(np.mean(np.concatenate(_errors(base, found)) ** 2))
+        return fit.chi_square / len(fit.residual)
+    return float(np.mean(np.concatenate(_errors(base, fit)) ** 2))
 
 
-def _misfit(base: BaseFit, found: Refit | None) -> float:
+def _misfit(base: BaseFit, fit: Refit | None) -> float:
     """Root mean square of the errors, each specimen having its own deviations [MPa]."""
-    errors = _errors(base, base.refit if found is None else found)
+    errors = _errors(base, base.refit if fit is None else fit)
     own = own_deviations(errors, base.whitened.noises)
-    return float(np.sqrt(np.mean(np.concatenate([each - part for each, part in zip(errors, own, strict=True)]) ** 2)))
+    return float(np.sqrt(np.mean(np.concatenate([error - part for error, part in zip(errors, own, strict=True)]) ** 2)))
 
 
 def _differ(base: BaseFit) -> bool:
@@ -240,10 +240,10 @@ def _differ(base: BaseFit) -> bool:
     return any(noise.specimen is not None for noise in base.whitened.noises)
 
 
-def _errors(base: BaseFit, found: Refit) -> list[FloatArray]:
+def _errors(base: BaseFit, fit: Refit) -> list[FloatArray]:
     """The fit residual by record, outliers set apart [MPa]."""
-    raw = found.model.residual(found.parameters)
-    return [without_outliers(raw[found.model.rows(noise.name)], noise.outliers) for noise in base.whitened.noises]
+    raw = fit.model.residual(fit.parameters)
+    return [without_outliers(raw[fit.model.rows(noise.name)], noise.outliers) for noise in base.whitened.noises]
 
 
 def _shares(
@@ -298,14 +298,14 @@ def _named(
 
 
 def _without(known: tuple[str, ...], name: str) -> tuple[str, ...]:
-    return tuple(each for each in known if each != name)
+    return tuple(other for other in known if other != name)
 
 
 def _records(name: str, weighed: Sequence[Weighed]) -> tuple[str, ...]:
     """Those that an effect touches in the most probable explanation that holds it."""
-    for each in weighed:
-        causes = [cause for cause in each.hypothesis.causes if cause.effect.name == name]
+    for explanation in weighed:
+        causes = [cause for cause in explanation.hypothesis.causes if cause.effect.name == name]
         if causes:
-            views = each.hypothesis.refit.model.views
+            views = explanation.hypothesis.refit.model.views
             return tuple(view.id for view in views if any(cause.touches(view.id) for cause in causes))
     return ()

@@ -130,21 +130,21 @@ def causes_of(
     """
     considered = tuple(considered)
     if not gap:
-        found = linear_hypotheses(base, base.columns, skipping)
+        hypotheses = linear_hypotheses(base, base.columns, skipping)
         trust = replace(calibration.trust, doubt=0.0)  # of forms, which describe nothing here
-        weighed = given_no_gap(probabilities_of(found, effect_count(considered), trust), p_value)
-        return Causes(base, considered, found, weighed, {}, "no_gap")
+        weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), trust), p_value)
+        return Causes(base, considered, hypotheses, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
-    base, found = _searched(base, considered, threads, skipping, budget, progress)
-    found = [each.as_reached(found[0]) for each in found]
+    base, hypotheses = _searched(base, considered, threads, skipping, budget, progress)
+    hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)
 
     def judged(trust: Trust) -> Causes:
-        weighed = probabilities_of(found, effect_count(considered), trust)
+        weighed = probabilities_of(hypotheses, effect_count(considered), trust)
         weighed = account.ranked(given_a_gap(weighed, p_value), calibration.covered)
         left, checked = _judged(leading(weighed, calibration.covered), base, account, seed)
         verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
-        return Causes(base, considered, found, weighed, checked, verdict)
+        return Causes(base, considered, hypotheses, weighed, checked, verdict)
 
     def leaves_more(causes: Causes) -> bool:
         if UNKNOWN in causes.weighed[0].effects:
@@ -171,10 +171,10 @@ def _searched(
 ) -> tuple[BaseFit, list[Hypothesis]]:
     """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
     search = Search(base, considered, threads, progress, skipping, budget)
-    found = search.run(base.columns_with_starts(considered, threads, skipping.screened))
+    hypotheses = search.run(base.columns_with_starts(considered, threads, skipping.screened))
     leading = search.ranked()
     if not leading:
-        return base, found
+        return base, hypotheses
     base = with_joint_noise(search.base, leading[0].refit)
     return base, search.reconsidered(base)
 
@@ -183,18 +183,18 @@ def _judged(
     chosen: Sequence[Weighed], base: BaseFit, account: HeldToAccount, seed: int
 ) -> tuple[bool, dict[tuple[str, ...], Checks]]:
     """Whether the best explanation leaves a gap, and the checks of every one in the answer set that has causes."""
-    left, found = False, {}
-    for index, each in enumerate(chosen):
-        if index and not each.hypothesis.causes:
+    left, checked = False, {}
+    for index, explanation in enumerate(chosen):
+        if index and not explanation.hypothesis.causes:
             continue
-        after = remaining_gap(each.hypothesis.refit, base, seed=seed)
+        after = remaining_gap(explanation.hypothesis.refit, base, seed=seed)
         if index == 0:
             left = after.rejected
-        if each.hypothesis.causes:
-            made = checks(each.hypothesis, base.refit, base.whitened, after.p_value)
-            refused = tuple(one.text for one in account.worse(each.hypothesis))
-            found[each.effects] = replace(made, notes=(*made.notes, *refused))
-    return left, found
+        if explanation.hypothesis.causes:
+            made = checks(explanation.hypothesis, base.refit, base.whitened, after.p_value)
+            refused = tuple(one.text for one in account.worse(explanation.hypothesis))
+            checked[explanation.effects] = replace(made, notes=(*made.notes, *refused))
+    return left, checked
 
 
 def _another_acts(best: Hypothesis, base: BaseFit, seed: int) -> bool:

@@ -47,14 +47,14 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
     remaining_p_value : float
         Of the gap test after it.
     """
-    found = hypothesis.refit
+    refit = hypothesis.refit
     shared = all(cause.records is None for cause in hypothesis.causes)
     left_out = None
     if shared and len(whitened.records) >= EVIDENCE.fewest_to_leave_out:
         count = len(whitened)
         before, after = (
             float(np.sum(left_out_squares(base, whitened))),
-            float(np.sum(left_out_squares(found, whitened))),
+            float(np.sum(left_out_squares(refit, whitened))),
         )
         least = count + EVIDENCE.left_out_gap * np.sqrt(2.0 * count)
         left_out = 1.0 - (after - count) / (before - count) if before > least else None
@@ -62,14 +62,14 @@ def checks(hypothesis: Hypothesis, base: Refit, whitened: Whitened, remaining_p_
     notes = []
     if p_value is not None and p_value < EVIDENCE.disagreement_level and scatter > EVIDENCE.disagreement_scatter:
         notes.append(f"the records want amplitudes that differ by {100.0 * scatter:.0f} %")
-    low, high = found.at_bound
-    for index, name in enumerate(found.model.parameter_names[found.model.base_count :], found.model.base_count):
+    low, high = refit.at_bound
+    for index, name in enumerate(refit.model.parameter_names[refit.model.base_count :], refit.model.base_count):
         # An amplitude at zero is an effect that is not there; a nonlinear parameter at its bound asks for another form.
         if low[index] or high[index]:
             notes.append(f"{name.rsplit('.', 1)[-1]} ended at its {'lower' if low[index] else 'upper'} bound")
     for name in dict.fromkeys(cause.effect.name for cause in hypothesis.causes):
         if (say := MEASURED_BESIDE.get(name)) is not None:
-            notes += [said for view in found.model.views if (said := say(view))]
+            notes += [said for view in refit.model.views if (said := say(view))]
     return Checks(left_out, p_value, remaining_p_value, tuple(notes))
 
 
@@ -91,21 +91,21 @@ def left_out_squares(found: Refit, whitened: Whitened) -> FloatArray:
 
 def amplitude_consistency(hypothesis: Hypothesis, whitened: Whitened) -> tuple[float | None, float]:
     """Cochran's Q of the first cause's amplitude over the records: p-value, and its relative scatter beyond chance."""
-    found = hypothesis.refit
-    column = found.model.base_count
+    refit = hypothesis.refit
+    column = refit.model.base_count
     own = np.zeros((len(whitened), len(whitened.records)))
     for index, part in enumerate(whitened.slices):
-        own[part, index] = found.jacobian[part, column]
-    design = np.hstack([own, np.delete(found.jacobian, column, axis=1)])
+        own[part, index] = refit.jacobian[part, column]
+    design = np.hstack([own, np.delete(refit.jacobian, column, axis=1)])
     count = own.shape[1]
     size = np.linalg.norm(design, axis=0)
     used = size > 0.0
     left, upper = np.linalg.qr(design[:, used] / size[used])
     inverse = np.linalg.pinv(upper, rcond=1e-8) / size[used][:, None]
     change, covariance = np.zeros(len(size)), np.full((len(size), len(size)), np.nan)
-    change[used] = -inverse @ (left.T @ found.residual)
+    change[used] = -inverse @ (left.T @ refit.residual)
     covariance[np.ix_(used, used)] = inverse @ inverse.T
-    amplitude = float(found.coordinates.of(found.parameters)[column])
+    amplitude = float(refit.coordinates.of(refit.parameters)[column])
     deviation = np.sqrt(np.diag(covariance)[:count])
     # Records that say next to nothing of the amplitude have no vote.
     known = np.flatnonzero(used[:count] & (deviation < EVIDENCE.voting_error * abs(amplitude)))

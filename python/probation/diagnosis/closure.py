@@ -124,8 +124,8 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
     if len(pieces) == 1 and pieces[0].inside is None:
         parts = pieces[0].blocks()
         if len(parts) > 2:
-            found = closure_of_blocks(parts, rng)
-            return Closure(*known, value, found, "contiguous parts of the one record, resampled")
+            interval = closure_of_blocks(parts, rng)
+            return Closure(*known, value, interval, "contiguous parts of the one record, resampled")
     if len(pieces) >= EVIDENCE.fewest_resampled:
         chosen = rng.integers(len(pieces), size=(EVIDENCE.closure_draws, len(pieces)))
         how = "records resampled, the noise level's error included"
@@ -141,8 +141,8 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
         common, first, apart = rng.standard_normal((3, EVIDENCE.closure_draws, len(pieces)))
         met = first, correlation * first + np.sqrt(1.0 - correlation**2) * apart
         drawn = [
-            each + own * common + 2.0 * np.sqrt(part * floor / count * slow) * cross
-            for each, part, cross in zip((before, after), left, met, strict=True)
+            squares + own * common + 2.0 * np.sqrt(part * floor / count * slow) * cross
+            for squares, part, cross in zip((before, after), left, met, strict=True)
         ]
         draws = _ratio(
             drawn[0], drawn[1], floor * np.exp(level * rng.standard_normal((EVIDENCE.closure_draws, len(pieces))))

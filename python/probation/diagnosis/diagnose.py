@@ -163,7 +163,7 @@ def diagnose(
         progress=lambda part: done(0.15 + 0.55 * part, "trying causes"),
         calibration=calibration,
     )
-    base, considered, found = causes.base, causes.considered, causes.found
+    base, considered, hypotheses = causes.base, causes.considered, causes.found
     if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     done(0.7, "measuring what causes close")
@@ -173,12 +173,12 @@ def diagnose(
     if gap.exists:
         weighed = with_unseen(weighed, considered)
     best, explanations = weighed[0], explanations_of(weighed, causes.checks)
-    parts = attribution(base, weighed, found, shrink.identify, workers)
+    parts = attribution(base, weighed, hypotheses, shrink.identify, workers)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     done(0.75, "choosing the next test")
     following, apart = (
-        _designed(base, considered, weighed, chosen, found, left, skipping, deadline, workers, seed, done)
+        _designed(base, considered, weighed, chosen, hypotheses, left, skipping, deadline, workers, seed, done)
         if design
         else ((), None)
     )
@@ -232,7 +232,7 @@ def diagnose(
         seed=seed,
         isolability=apart,
         remainder=left,
-        skipped=skipping.entries(found),
+        skipped=skipping.entries(hypotheses),
         scatter=base.scatter,
         gap_if_alike=gap.if_alike,
         calibration=calibration,
@@ -244,7 +244,7 @@ def _visible(known: Sequence[Effect], base: BaseFit, skipping: Skipping, *, aske
     kept = visible(known, base.model.views)
     if asked:
         for effect in known:
-            if effect.name not in {each.name for each in kept}:
+            if effect.name not in {visible_effect.name for visible_effect in kept}:
                 skipping.part(effect.name, f"no record could show it; it shows in {effect.shows_in}")
     return kept
 
@@ -294,7 +294,7 @@ def _designed(
     considered: tuple[Effect, ...],
     weighed: Sequence[Weighed],
     chosen: Sequence[tuple[str, ...]],
-    found: Sequence[Hypothesis],
+    hypotheses: Sequence[Hypothesis],
     left: Remainder | None,
     skipping: Skipping,
     budget: Budget,
@@ -314,7 +314,7 @@ def _designed(
                 base,
                 weighed,
                 chosen,
-                found,
+                hypotheses,
                 threads=threads,
                 seed=seed,
                 progress=lambda part: done(0.75 + 0.1 * part, "choosing the next test"),
@@ -358,19 +358,19 @@ def _with_predictions(base: BaseFit) -> Whitened:
 
 
 def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
-    found = []
+    warnings = []
     if not robust:
-        found.append("whether there is a gap hangs on the noise level: the verdict changes at 0.8 or 1.25 times it")
+        warnings.append("whether there is a gap hangs on the noise level: the verdict changes at 0.8 or 1.25 times it")
     if not is_stretched(base):
-        found.append("no record is stretched: no next test is looked for, since only tension tests are planned")
+        warnings.append("no record is stretched: no next test is looked for, since only tension tests are planned")
     if len(base.whitened.records) == 1:
-        found.append(
+        warnings.append(
             "one record only: nothing can be left out, and a cause that acts alike in it cannot be discriminated"
         )
     for noise in base.whitened.noises:
         if noise.outliers:
-            found.append(f"{noise.name}: {_outliers_text(len(noise.outliers))}")
+            warnings.append(f"{noise.name}: {_outliers_text(len(noise.outliers))}")
     levels = np.array([noise.sigma for noise in base.whitened.noises])
     if levels.size > 1 and levels.max() > NOISE.tenfold * levels.min():
-        found.append("the noise of the records differs more than tenfold; each is weighed by its own")
-    return tuple(found)
+        warnings.append("the noise of the records differs more than tenfold; each is weighed by its own")
+    return tuple(warnings)

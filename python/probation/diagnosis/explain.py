@@ -23,34 +23,34 @@ if TYPE_CHECKING:
 
 def explanations_of(weighed: Sequence[Weighed], checks: Mapping[tuple[str, ...], Checks]) -> tuple[Explanation, ...]:
     """Entries of the answer, in the order of `weighed`, with the checks of those that were checked."""
-    found = []
-    for each in weighed:
-        causes = each.hypothesis.causes
-        found.append(
+    entries = []
+    for explanation in weighed:
+        causes = explanation.hypothesis.causes
+        entries.append(
             Explanation(
-                effects=each.effects,
-                titles=tuple(title(name) for name in each.effects),
+                effects=explanation.effects,
+                titles=tuple(title(name) for name in explanation.effects),
                 forms=tuple(cause.form.name for cause in causes),
-                records=each.hypothesis.records,
-                probability=each.probability,
-                parameters=cause_parameters(each.hypothesis),
-                checks=checks.get(each.effects),
+                records=explanation.hypothesis.records,
+                probability=explanation.probability,
+                parameters=cause_parameters(explanation.hypothesis),
+                checks=checks.get(explanation.effects),
             )
         )
-    return tuple(found)
+    return tuple(entries)
 
 
 def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
     """What is known of the causes' parameters."""
-    found = hypothesis.refit
-    slopes = found.coordinates.slopes(found.parameters)
+    refit = hypothesis.refit
+    slopes = refit.coordinates.slopes(refit.parameters)
     deviation = np.sqrt(np.maximum(np.diag(hypothesis.evidence.covariance), 0.0)) * slopes
-    low, high = found.at_bound
-    result, at = [], found.model.base_count
-    everywhere = tuple(view.id for view in found.model.views)
+    low, high = refit.at_bound
+    result, at = [], refit.model.base_count
+    everywhere = tuple(view.id for view in refit.model.views)
     for cause in hypothesis.causes:
         for parameter in cause.form.parameters:
-            scale = parameter.scale * (abs(found.parameters[at]) if parameter.log else 1.0)
+            scale = parameter.scale * (abs(refit.parameters[at]) if parameter.log else 1.0)
             known = 0.0 < deviation[at] < EVIDENCE.uninformed * scale
             result.append(
                 CauseParameter(
@@ -58,7 +58,7 @@ def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
                     name=parameter.name,
                     unit=parameter.unit,
                     records=cause.records or everywhere,
-                    value=float(found.parameters[at]),
+                    value=float(refit.parameters[at]),
                     se=float(deviation[at]) if known else None,
                     bound="lower" if low[at] else "upper" if high[at] else None,
                 )
@@ -73,12 +73,12 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
     Where the specimens' scatter is known from replicates, or stated, they are those of the material's mean; where it is
     assumed, of the specimens that were tested. A parameter at its bound has none.
     """
-    found = base.refit
+    refit = base.refit
     covariance = base.covariance if base.scatter.known else base.covariance_of_tested
     deviation = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     result = []
-    ended = np.any(found.at_bound, axis=0)
-    for name, value, error, stopped in zip(base.law.parameter_names, found.parameters, deviation, ended, strict=True):
+    ended = np.any(refit.at_bound, axis=0)
+    for name, value, error, stopped in zip(base.law.parameter_names, refit.parameters, deviation, ended, strict=True):
         if stopped:
             result.append(BaseParameter(name, float(value), None, "not_identifiable"))
             continue
@@ -89,12 +89,12 @@ def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:
 
 def regions_of(hypothesis: Hypothesis, base: BaseFit, p_value: float) -> tuple[Located, ...]:
     """Where the causes' own contribution is certain (docs/diagnosis-method.md, section 3)."""
-    found, model = hypothesis.refit, hypothesis.refit.model
+    refit, model = hypothesis.refit, hypothesis.refit.model
     first = model.base_count
-    absent = found.parameters.copy()
+    absent = refit.parameters.copy()
     absent[list(model.amplitudes)] = 0.0
-    contribution = model.residual(found.parameters) - model.residual(absent)
-    slopes = model.jacobian(found.parameters)[:, first:] * found.coordinates.slopes(found.parameters)[first:]
+    contribution = model.residual(refit.parameters) - model.residual(absent)
+    slopes = model.jacobian(refit.parameters)[:, first:] * refit.coordinates.slopes(refit.parameters)[first:]
     rows = [part for _, part in model.parts]
     return contribution_regions(
         base.whitened.records,

@@ -144,7 +144,9 @@ class FreeFunction:
         parameters = model.parameters(base, *(values for _, values in shared))
         residual, jacobian = model.residual_and_jacobian(parameters)
         stress = residual + model.data
-        variable = next(each for each in every_variable((view,), ("",)) if each.name == self.dependence.variable)
+        variable = next(
+            candidate for candidate in every_variable((view,), ("",)) if candidate.name == self.dependence.variable
+        )
         inside = np.ones(len(stress), dtype=bool)
         if self.term.when is not None:
             inside = every_phase((view,), self.least)[self.term.when]
@@ -212,7 +214,7 @@ class FreeFunctions:
         self._count = jacobian.shape[1]
         self._tangent = np.hstack([jacobian * found.coordinates.slopes(parameters), own])
         self._precision = np.append(found.coordinates.prior.precision, np.ones(own.shape[1]))
-        self._weight = np.concatenate([_weights(each) for each in base.whitened.noises])
+        self._weight = np.concatenate([_weights(noise_model) for noise_model in base.whitened.noises])
         self._slices = base.whitener.slices
         # Kinks of a gap make the noise look larger than it is; from sample to sample they do not.
         rough = [
@@ -253,7 +255,7 @@ class FreeFunctions:
         values, inside = term.variable.values, self.inside(term.when)
         groups = np.unique(values[inside]) if term.variable.is_category else [None]
         member = [inside if group is None else inside & (values == group) for group in groups]
-        return all(sum(bool(each[part].any()) for part in self._slices) > 1 for each in member)
+        return all(sum(bool(mask[part].any()) for part in self._slices) > 1 for mask in member)
 
     def curve(self, term: Term) -> RemainderCurve:
         """For a figure."""

@@ -85,14 +85,14 @@ def headline(
         )
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)
-    found = _cause(verdict, best, parts, answer_set, identify, len(shrink.records) - (shrink.held_out is not None))
+    clause = _cause(verdict, best, parts, answer_set, identify, len(shrink.records) - (shrink.held_out is not None))
     if worse:
-        found = _refused(best, identify, worse)
+        clause = _refused(best, identify, worse)
     if gap.in_fitted:
         missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if verdict == "explained":
-            return f"{found[:1].upper()}{found[1:]}."
-        return f"{missed}{' and' if found.startswith('nothing') else ':'} {found}."
+            return f"{clause[:1].upper()}{clause[1:]}."
+        return f"{missed}{' and' if clause.startswith('nothing') else ':'} {clause}."
     size = gap.held_out[gap.missed[0]]
     others = f" and {len(gap.missed) - 1} more" if len(gap.missed) > 1 else ""
     described = "the one record that was fitted" if fitted == 1 else f"the {fitted} records that were fitted"
@@ -104,8 +104,8 @@ def headline(
     if judged is not None and verdict == "explained":
         mended = judge not in gap.missed or judged.after_MPa < 0.5 * judged.before_MPa
         text = "is predicted to" if mended else "is still missed by"
-        found += f"; {judge}, kept apart, {text} {judged.after_MPa:.3g} instead of {judged.before_MPa:.3g} MPa"
-    return f"{missed}; {found}."
+        clause += f"; {judge}, kept apart, {text} {judged.after_MPa:.3g} instead of {judged.before_MPa:.3g} MPa"
+    return f"{missed}; {clause}."
 
 
 def _scatter_clause(gap: Gap) -> str:
@@ -136,7 +136,7 @@ def _cause(
     record_count: int,
 ) -> str:
     """What explains the gap, or does not, without a full stop."""
-    touched = [name for name in best.records if any(name in each.records for each in parts.effects if each.named)]
+    touched = [name for name in best.records if any(name in part.records for part in parts.effects if part.named)]
     place = f" in {listed(touched, 'and')}" if 0 < len(touched) < record_count else ""
     known = parts.named if verdict == "explained" or _close_some(parts, identify) else ()
     fall = (
@@ -157,7 +157,7 @@ def _cause(
         sentence += (
             f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
         )
-    rivals = [each for each in answer_set if not {*known} <= {*each}]
+    rivals = [effects for effects in answer_set if not {*known} <= {*effects}]
     if rivals:
         shown = choices(rivals[:MOST_RIVALS])
         more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
@@ -167,7 +167,7 @@ def _cause(
 
 def _close_some(parts: Attribution, identify: Closure) -> bool:
     """Whether the named effects close a part of the gap that is worth naming in addition to an unknown one."""
-    share = sum(each.share for each in parts.effects if each.named)
+    share = sum(part.share for part in parts.effects if part.named)
     return share >= EVIDENCE.share_worth_naming and parts.after_MPa < identify.before_MPa
 
 
@@ -176,7 +176,7 @@ def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> st
     known = titles([name for name in best.effects if name != UNKNOWN])
     return (
         f"nothing in the catalogue explains it; with {known} the misfit would fall from {identify.before_MPa:.3g} to "
-        f"{identify.after_MPa:.3g} MPa, but {' and '.join(each.text for each in worse)}"
+        f"{identify.after_MPa:.3g} MPa, but {' and '.join(record.text for record in worse)}"
     )
 
 
@@ -185,7 +185,7 @@ def _with_shares(parts: Attribution) -> str:
 
     An effect that others can stand in for has no share of its own.
     """
-    shares = {each.name: signed_percent(each.share) for each in parts.effects if each.name not in parts.undivided}
+    shares = {part.name: signed_percent(part.share) for part in parts.effects if part.name not in parts.undivided}
     words, of_the_gap = [], " of the gap"
     for name in parts.named:
         share = ""
@@ -200,7 +200,7 @@ def _not_divided(parts: Attribution) -> str:
     if not parts.undivided:
         return ""
     first = parts.undivided[0]
-    alone = next(each.alone for each in parts.effects if each.name == first) or 0.0
+    alone = next(part.alone for part in parts.effects if part.name == first) or 0.0
     closes, stand_ins = f"; {title(first)} alone closes {percent(alone)} of the gap", titles(parts.undivided)
     if {*parts.undivided} <= {*parts.named}:  # none of them is enough
         others = titles([name for name in parts.named if name != first])

@@ -37,7 +37,7 @@ def all_but_one(campaign: Campaign, gap: Gap) -> tuple[Campaign, str | None]:
     others = [name for name in gap.held_out if name not in gap.missed]
     ranked = [*gap.missed, *sorted(others, key=lambda name: gap.held_out[name].p_value)]
     judge = ranked[1] if len(ranked) > 1 else None
-    records = [replace(each, role="held-out" if each.id == judge else "identify") for each in campaign.records]
+    records = [replace(record, role="held-out" if record.id == judge else "identify") for record in campaign.records]
     return replace(campaign, records=tuple(records)), judge
 
 
@@ -80,9 +80,9 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
     if not base.held_out or not hypothesis.causes:
         return ()
     rng = np.random.default_rng(seed)
-    found = hypothesis.refit
+    refit = hypothesis.refit
     everywhere = CampaignModel(base.law, base.views)
-    explained = on_all_records(found, base.views)
+    explained = on_all_records(refit, base.views)
     if explained.silent:
         return ()
     before = everywhere.residual(base.before)
@@ -91,7 +91,7 @@ def made_worse(hypothesis: Hypothesis, base: BaseFit, *, seed: int = 0) -> tuple
     except UNSOLVABLE:  # what cannot be predicted cannot judge; `shrink_of` takes note of it
         return ()
     spread, directions = np.linalg.eigh(hypothesis.evidence.covariance)
-    slopes = found.coordinates.slopes(found.parameters)
+    slopes = refit.coordinates.slopes(refit.parameters)
     columns = (jacobian @ explained.from_fitted * slopes) @ (directions * np.sqrt(np.maximum(spread, 0.0)))
     columns = np.hstack([columns, jacobian * explained.spread])
     worse = []
@@ -145,13 +145,19 @@ class HeldToAccount:
         covered : float
             Probability that the answer set holds.
         """
-        known = [each for each in leading(weighed, covered) if each.effects and UNKNOWN not in each.effects]
-        refuted = [id(each) for each in known if self.worse(each.hypothesis)]
+        known = [
+            explanation
+            for explanation in leading(weighed, covered)
+            if explanation.effects and UNKNOWN not in explanation.effects
+        ]
+        refuted = [id(explanation) for explanation in known if self.worse(explanation.hypothesis)]
         if len(refuted) == len(known):
             return list(weighed)
         return normalised(
             [
-                replace(each, probability=EVIDENCE.held_out_penalty * each.probability) if id(each) in refuted else each
-                for each in weighed
+                replace(explanation, probability=EVIDENCE.held_out_penalty * explanation.probability)
+                if id(explanation) in refuted
+                else explanation
+                for explanation in weighed
             ]
         )

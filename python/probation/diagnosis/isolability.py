@@ -84,7 +84,7 @@ def campaign_isolability(
     advance(Part(0.0, "fitting the law"))
     base = base_fit(campaign, plain_fit(campaign, scheme, hold))
     advance(Part(0.3, "comparing effects"))
-    found = isolability(
+    effect_isolability = isolability(
         base.model,
         base.parameters,
         base.whitened.noises,
@@ -92,4 +92,4 @@ def campaign_isolability(
         threads=at_once(threads),
         progress=lambda part: advance(Part(0.3 + 0.7 * part, "comparing effects")),
     )
-    return CampaignIsolability(campaign.name, scheme, found, campaign.data_hash)
+    return CampaignIsolability(campaign.name, scheme, effect_isolability, campaign.data_hash)

@@ -34,7 +34,7 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, skipping: Skippin
         What is left out.
     """
     discrepancy = base.discrepancy
-    found = [Hypothesis(base.refit, evidence(base.refit, base.refit, discrepancy))]
+    hypotheses = [Hypothesis(base.refit, evidence(base.refit, base.refit, discrepancy))]
     span = base.whitened.span
     left = without(base.refit.residual, span)
     grouped: dict[Key, list[tuple[float, int]]] = {}
@@ -61,10 +61,10 @@ def linear_hypotheses(base: BaseFit, columns: WhitenedColumns, skipping: Skippin
             except UNSOLVABLE as error:
                 skipping.hypothesis([column.cause], error)
                 continue
-        judged = [evidence(each, base.refit, discrepancy, unknown=False) for each in chosen]
-        together = float(logsumexp([each.log_evidence for each in judged])) - np.log(len(judged))
-        found.append(Hypothesis(chosen[0], replace(judged[0], log_evidence=together)))
-    return found
+        judged = [evidence(fit, base.refit, discrepancy, unknown=False) for fit in chosen]
+        together = float(logsumexp([start_evidence.log_evidence for start_evidence in judged])) - np.log(len(judged))
+        hypotheses.append(Hypothesis(chosen[0], replace(judged[0], log_evidence=together)))
+    return hypotheses
 
 
 def _at_zero(base: BaseFit, columns: WhitenedColumns, index: int) -> Refit:
@@ -79,6 +79,6 @@ def _at_zero(base: BaseFit, columns: WhitenedColumns, index: int) -> Refit:
     return Refit(problem, parameters, base.refit.residual, jacobian, Coordinates.of_model(model), 0)
 
 
-def _sharp(found: Refit) -> bool:
+def _sharp(fit: Refit) -> bool:
     """Whether a nonlinear parameter may lie anywhere, so that the data choose it: a frequency, an instant."""
-    return any(not np.isfinite(each.scale) for each in found.model.effect_parameters[1:])
+    return any(not np.isfinite(parameter.scale) for parameter in fit.model.effect_parameters[1:])

@@ -49,44 +49,48 @@ def next_test_of(
     progress : callable, optional
         Called with the fraction done, 0 to 1.
     """
-    open_still = [each for each in weighed if each.effects in answer_set and UNKNOWN not in each.effects][
-        : DESIGN.planned_explanations
-    ]
+    open_still = [
+        explanation
+        for explanation in weighed
+        if explanation.effects in answer_set and UNKNOWN not in explanation.effects
+    ][: DESIGN.planned_explanations]
     if len(open_still) < 2:
         return ()
     entries = []
-    for each in open_still:
-        best = each.hypothesis.evidence.log_evidence
+    for explanation in open_still:
+        best = explanation.hypothesis.evidence.log_evidence
         close = [
             other
             for other in hypotheses
-            if other.effects == each.effects and other.evidence.log_evidence > best - DESIGN.forms_within
+            if other.effects == explanation.effects and other.evidence.log_evidence > best - DESIGN.forms_within
         ]
         close = sorted(close, key=lambda other: -other.evidence.log_evidence)[: DESIGN.forms]
         weight = np.exp([other.evidence.log_evidence - best for other in close])
         entries += [
-            (other.refit.model, other.refit.parameters, float(each.probability * part), each.effects)
+            (other.refit.model, other.refit.parameters, float(explanation.probability * part), explanation.effects)
             for other, part in zip(close, weight / weight.sum(), strict=True)
             if part > DESIGN.least_form_weight
         ]
-    found = next_test(base.model, entries, noises=base.whitened.noises, threads=threads, seed=seed, progress=progress)
-    return () if found is None else as_answer(found.ranking, found.probability_before)
+    recommendation = next_test(
+        base.model, entries, noises=base.whitened.noises, threads=threads, seed=seed, progress=progress
+    )
+    return () if recommendation is None else as_answer(recommendation.ranking, recommendation.probability_before)
 
 
 def as_answer(ranking: Sequence[RankedTest], before: float) -> tuple[NextTest, ...]:
     """The best test of every kind that helps, the most worth first; the best of all in any case."""
     of_kind: dict[str, RankedTest] = {}
-    for each in ranking:
-        of_kind.setdefault(each.test.name, each)
+    for ranked in ranking:
+        of_kind.setdefault(ranked.test.name, ranked)
     first, *others = of_kind.values()
-    helpful = [each for each in others if each.probability_after >= before + DESIGN.least_help]
+    helpful = [ranked for ranked in others if ranked.probability_after >= before + DESIGN.least_help]
     return tuple(
         NextTest(
-            what=each.what,
-            separates=tuple(tuple(names) for names in each.separates),
+            what=ranked.what,
+            separates=tuple(tuple(names) for names in ranked.separates),
             probability_before=before,
-            probability_after=each.probability_after,
-            cost=each.test.cost,
+            probability_after=ranked.probability_after,
+            cost=ranked.test.cost,
         )
-        for each in (first, *helpful[: DESIGN.listed_tests - 1])
+        for ranked in (first, *helpful[: DESIGN.listed_tests - 1])
     )

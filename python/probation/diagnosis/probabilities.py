@@ -65,14 +65,14 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
     trust : Trust
     """
     together: dict[tuple[str, ...], list[tuple[float, Hypothesis]]] = {}
-    for each in _best_starts(hypotheses):
-        value = each.evidence.log_evidence
-        inside = each.log_share
+    for hypothesis in _best_starts(hypotheses):
+        value = hypothesis.evidence.log_evidence
+        inside = hypothesis.log_share
         for effects, score in (
-            (each.effects, value),
-            (with_unknown(each.effects), each.evidence.log_evidence_unknown),
+            (hypothesis.effects, value),
+            (with_unknown(hypothesis.effects), hypothesis.evidence.log_evidence_unknown),
         ):
-            together.setdefault(effects, []).append((score + inside, each))
+            together.setdefault(effects, []).append((score + inside, hypothesis))
     evidence = _beyond_forms(
         {effects: float(logsumexp([score for score, _ in entries])) for effects, entries in together.items()},
         trust.left_by_forms,
@@ -82,11 +82,11 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
     chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
     chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
     chances = _unknown_cut(chances, evidence, trust.most_unknown)
-    found = [
+    weighed = [
         Weighed(effects, chance, _standing_for(entries))
         for (effects, entries), chance in zip(together.items(), chances.tolist(), strict=True)
     ]
-    return sorted(found, key=lambda each: -each.probability)
+    return sorted(weighed, key=lambda explanation: -explanation.probability)
 
 
 def _unknown_cut(chances: FloatArray, evidence: Mapping[tuple[str, ...], float], most: float) -> FloatArray:
@@ -138,9 +138,11 @@ def with_unseen(weighed: Sequence[Weighed], effects: Sequence[Effect]) -> list[W
         All that were considered.
     """
     names, count = [effect.name for effect in effects], effect_count(effects)
-    tried = {each.effects for each in weighed}
-    singles = [each for each in weighed if len(each.effects) == 1 and each.effects[0] in names]
-    found = list(weighed)
+    tried = {explanation.effects for explanation in weighed}
+    singles = [
+        explanation for explanation in weighed if len(explanation.effects) == 1 and explanation.effects[0] in names
+    ]
+    extended = list(weighed)
     for single in singles:
         if single.probability < EVIDENCE.noted_with_others:
             continue
@@ -152,20 +154,20 @@ def with_unseen(weighed: Sequence[Weighed], effects: Sequence[Effect]) -> list[W
                     * EVIDENCE.unseen_second_effect
                     * exp(log_prior(pair, count) - log_prior(single.effects, count))
                 )
-                found.append(Weighed(pair, odds * single.probability, single.hypothesis))
+                extended.append(Weighed(pair, odds * single.probability, single.hypothesis))
                 tried.add(pair)
-    return normalised(found)
+    return normalised(extended)
 
 
 def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
     """Of the forms that are about as probable in the same place, the one that is most nearly exact."""
     best, leading = max(entries, key=lambda entry: entry[0])
     close = [
-        each
-        for score, each in entries
-        if score >= best - EVIDENCE.about_as_probable and each.records == leading.records
+        hypothesis
+        for score, hypothesis in entries
+        if score >= best - EVIDENCE.about_as_probable and hypothesis.records == leading.records
     ]
-    return max(close, key=lambda each: each.evidence.log_evidence_exact)
+    return max(close, key=lambda hypothesis: hypothesis.evidence.log_evidence_exact)
 
 
 def with_unknown(effects: tuple[str, ...]) -> tuple[str, ...]:
@@ -186,15 +188,22 @@ def given_no_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     p_value : float
         Of the test for a gap.
     """
-    none = next(each for each in weighed if not each.effects)
+    none = next(explanation for explanation in weighed if not explanation.effects)
     probability = (
         max(p_value, EVIDENCE.least_p_value) ** (1.0 - EVIDENCE.undeclared_gap_power)
         / EVIDENCE.undeclared_gap_power
         * none.probability
     )
-    weighed = normalised([replace(each, probability=probability) if each is none else each for each in weighed])
-    most = max(each.probability for each in weighed)
-    return normalised([each if each.effects else replace(each, probability=most) for each in weighed])
+    weighed = normalised(
+        [
+            replace(explanation, probability=probability) if explanation is none else explanation
+            for explanation in weighed
+        ]
+    )
+    most = max(explanation.probability for explanation in weighed)
+    return normalised(
+        [explanation if explanation.effects else replace(explanation, probability=most) for explanation in weighed]
+    )
 
 
 def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
@@ -210,7 +219,7 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     p_value : float
         Of the test for a gap.
     """
-    none = next(each for each in weighed if not each.effects)
+    none = next(explanation for explanation in weighed if not explanation.effects)
     p_value = max(p_value, EVIDENCE.least_p_value)
     odds = -e * p_value * log(p_value) * EVIDENCE.no_effect / (1.0 - EVIDENCE.no_effect)
     most = odds / (1.0 + odds)
@@ -219,8 +228,10 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
         return list(weighed)
     return normalised(
         [
-            replace(each, probability=most if each is none else (1.0 - most) * each.probability / rest)
-            for each in weighed
+            replace(
+                explanation, probability=most if explanation is none else (1.0 - most) * explanation.probability / rest
+            )
+            for explanation in weighed
         ]
     )
 
@@ -229,27 +240,27 @@ def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
     """Where a gap is left after the best explanation, most of its probability goes to it jointly with an unknown."""
     best, extended = weighed[0], with_unknown(weighed[0].effects)
     moved = EVIDENCE.left_to_an_unknown * best.probability
-    known = next((each.probability for each in weighed if each.effects == extended), 0.0)
+    known = next((explanation.probability for explanation in weighed if explanation.effects == extended), 0.0)
     changed = [replace(best, probability=best.probability - moved), Weighed(extended, known + moved, best.hypothesis)]
-    return normalised([*changed, *(each for each in weighed[1:] if each.effects != extended)])
+    return normalised([*changed, *(explanation for explanation in weighed[1:] if explanation.effects != extended)])
 
 
 def normalised(weighed: Sequence[Weighed]) -> list[Weighed]:
     """Probabilities over their sum, most probable first."""
-    total = sum(each.probability for each in weighed)
-    parts = [replace(each, probability=each.probability / total) for each in weighed]
-    return sorted(parts, key=lambda each: (-each.probability, len(each.effects)))
+    total = sum(explanation.probability for explanation in weighed)
+    parts = [replace(explanation, probability=explanation.probability / total) for explanation in weighed]
+    return sorted(parts, key=lambda explanation: (-explanation.probability, len(explanation.effects)))
 
 
 def _best_starts(hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:
     """Of starts with the same causes, forms and places the best one: most end in one optimum."""
     best: dict[frozenset[Key], Hypothesis] = {}
-    for each in hypotheses:
-        key = frozenset(cause_key(cause) for cause in each.causes)
-        if not np.isfinite(each.evidence.log_evidence):
+    for hypothesis in hypotheses:
+        key = frozenset(cause_key(cause) for cause in hypothesis.causes)
+        if not np.isfinite(hypothesis.evidence.log_evidence):
             continue
-        if key not in best or each.evidence.log_evidence > best[key].evidence.log_evidence:
-            best[key] = each
+        if key not in best or hypothesis.evidence.log_evidence > best[key].evidence.log_evidence:
+            best[key] = hypothesis
     return list(best.values())
 
 
@@ -264,15 +275,15 @@ def log_prior(effects: tuple[str, ...], count: int) -> float:
 
 def answer_set(weighed: Sequence[Weighed], covered: float = EVIDENCE.credible_set) -> tuple[tuple[str, ...], ...]:
     """The most probable explanations that hold so much probability together, best first."""
-    return tuple(each.effects for each in leading(weighed, covered))
+    return tuple(explanation.effects for explanation in leading(weighed, covered))
 
 
 def leading(ranked: Sequence[Probable], covered: float = EVIDENCE.credible_set) -> tuple[Probable, ...]:
     """The first of what is ranked by probability that hold so much of it together."""
     chosen, total = [], 0.0
-    for each in ranked:
-        chosen.append(each)
-        total += each.probability
+    for probable in ranked:
+        chosen.append(probable)
+        total += probable.probability
         if total >= covered:
             break
     return tuple(chosen)
@@ -281,4 +292,4 @@ def leading(ranked: Sequence[Probable], covered: float = EVIDENCE.credible_set) 
 def _log_odds(hypothesis: Hypothesis) -> float:
     """Log odds of its effects relative to those of usual ones, each effect once."""
     odds = {cause.effect.name: cause.effect.odds for cause in hypothesis.causes}
-    return sum(log(each) for each in odds.values())
+    return sum(log(effect_odds) for effect_odds in odds.values())

@@ -53,7 +53,7 @@ class Remainder:
         return {
             "rms_MPa": self.rms_MPa,
             "noise_MPa": self.noise_MPa,
-            "depends_on": [each.to_dict() for each in self.depends_on],
+            "depends_on": [dependence.to_dict() for dependence in self.depends_on],
             "description": self.description,
         }
 
@@ -86,7 +86,7 @@ def remainder_of(
     before = problem.before
     for _ in range(REMAINDER.linearisations):
         trials = sorted(
-            (problem.trial(term, before) for term in terms_of(variables, problem)), key=lambda each: -each.rank
+            (problem.trial(term, before) for term in terms_of(variables, problem)), key=lambda tried: -tried.rank
         )
         moved = problem.with_function(trials[0].term)
         try:
@@ -99,7 +99,7 @@ def remainder_of(
     best: dict[str, TriedTerm] = {}
     for trial in trials:
         best.setdefault(trial.term.variable.name, trial)
-    leading = [each for each in best.values() if each.explained > REMAINDER.least_part][: REMAINDER.most_variables]
+    leading = [tried for tried in best.values() if tried.explained > REMAINDER.least_part][: REMAINDER.most_variables]
     depends_on = tuple(
         Dependence(
             variable=trial.term.variable.name,
@@ -112,9 +112,9 @@ def remainder_of(
         for trial in leading
     )
     curve = problem.curve(leading[0].term) if leading else None
-    most = max((each.explained for each in trials), default=0.0)
+    most = max((tried.explained for tried in trials), default=0.0)
     text = description(closure.after_MPa, closure.noise_MPa, depends_on, curve, most)
     functions = tuple(
-        problem.function(trial.term, each, before) for trial, each in zip(leading, depends_on, strict=True)
+        problem.function(trial.term, dependence, before) for trial, dependence in zip(leading, depends_on, strict=True)
     )
     return Remainder(closure.after_MPa, closure.noise_MPa, depends_on, text, curve, functions)

@@ -46,23 +46,23 @@ def remainder_tests(base: BaseFit, left: Remainder, *, threads: int, seed: int) 
     left : Remainder
     threads, seed : int
     """
-    rivals = [each for each in left.functions if each.dependence.variable not in NOT_PLANNED][
+    rivals = [rival for rival in left.functions if rival.dependence.variable not in NOT_PLANNED][
         : REMAINDER.planned_variables
     ]
     if len(rivals) < 2:
         return ()
     odds = np.array(
-        [each.dependence.explained / (1.0 - each.dependence.explained + REMAINDER.doubt) for each in rivals]
+        [rival.dependence.explained / (1.0 - rival.dependence.explained + REMAINDER.doubt) for rival in rivals]
     )
     prior = odds / odds.sum()
     error = rivals[0].error_MPa
-    answers = [[each.dependence.variable] for each in rivals]
-    names = [each.dependence.title for each in rivals]
+    answers = [[rival.dependence.variable] for rival in rivals]
+    names = [rival.dependence.title for rival in rivals]
 
     def work(planned: tuple[ProposedTest, RecordView]) -> RankedTest | None:
         test, view = planned
         try:
-            ways = [_predicted(each, owner, view, error) for owner, each in enumerate(rivals)]
+            ways = [_predicted(rival, owner, view, error) for owner, rival in enumerate(rivals)]
         except UNSOLVABLE:
             return None
         group = list(range(len(rivals)))
@@ -70,10 +70,10 @@ def remainder_tests(base: BaseFit, left: Remainder, *, threads: int, seed: int) 
 
     planned = _planned(base, rivals)
     visiting = [(test, view) for test, view in planned if _visits(view, rivals[0])] or planned
-    found = [each for each in in_parallel(work, visiting, threads) if each is not None]
-    if not found:
+    tests = [ranked for ranked in in_parallel(work, visiting, threads) if ranked is not None]
+    if not tests:
         return ()
-    return as_answer(sorted(found, key=lambda each: -each.worth), float(prior.max()))
+    return as_answer(sorted(tests, key=lambda ranked: -ranked.worth), float(prior.max()))
 
 
 def _visits(view: RecordView, leading: FreeFunction) -> bool:
@@ -93,7 +93,7 @@ def _predicted(rival: FreeFunction, owner: int, view: RecordView, error: float) 
 def _planned(base: BaseFit, rivals: Sequence[FreeFunction]) -> list[tuple[ProposedTest, RecordView]]:
     """Tests of the same laboratory, at the last temperature, and one at another where that may matter."""
     views = base.model.views
-    known = {each.dependence.variable for each in rivals}
+    known = {rival.dependence.variable for rival in rivals}
     usual = None if views[-1].temperature is None else float(np.mean(views[-1].temperature))
     tests = [
         (test, _at(planned_view(test.name, test.time, test.true_strain, test.jumps, views), usual))

@@ -44,7 +44,11 @@ def description(
     judged = "records left out" if first.judged_on == "records" else "parts of the records left out"
     text = f"{size} is a function of {function_name(first)}, which closes {percent(first.explained)} of it in {judged}"
     text += f": {_size(curve)}"
-    rivals = [function_name(each) for each in others if each.explained > first.explained - REMAINDER.not_discriminated]
+    rivals = [
+        function_name(dependence)
+        for dependence in others
+        if dependence.explained > first.explained - REMAINDER.not_discriminated
+    ]
     if rivals:
         text += f"; these records do not distinguish it from a function of {listed(rivals)}"
     return f"{text}."

@@ -239,7 +239,7 @@ class NextTest:
         """As in `next_tests` of docs/formats.md."""
         return {
             "what": self.what,
-            "separates": [list(each) for each in self.separates],
+            "separates": [list(names) for names in self.separates],
             "probability_before": self.probability_before,
             "probability_after": self.probability_after,
             "cost": self.cost,
@@ -367,19 +367,19 @@ class Diagnosis(Result, Stored):
         if one_of(what, "what", ("causes", "where", "curves")) == "causes":
             causes = [
                 {
-                    "effects": " + ".join(each.effects) or "none",
-                    "probability": each.probability,
-                    "records": ", ".join(each.records),
-                    "in_answer_set": each.effects in self.answer_set,
+                    "effects": " + ".join(explanation.effects) or "none",
+                    "probability": explanation.probability,
+                    "records": ", ".join(explanation.records),
+                    "in_answer_set": explanation.effects in self.answer_set,
                 }
-                for each in self.explanations
+                for explanation in self.explanations
             ]
             return rows_frame(causes, ("effects", "probability", "records", "in_answer_set"))
         if what == "where":
             columns = ("record", "start_s", "end_s", "lowest_strain", "highest_strain", "rms_MPa", "share", "p_value")
             regions = [
-                (each.record, *each.time_s, *each.true_strain, each.rms_MPa, each.share, each.p_value)
-                for each in self.located
+                (region.record, *region.time_s, *region.true_strain, region.rms_MPa, region.share, region.p_value)
+                for region in self.located
             ]
             return rows_frame([dict(zip(columns, row, strict=True)) for row in regions], columns)
         return by_record(self._columns())
@@ -397,14 +397,14 @@ class Diagnosis(Result, Stored):
     def _columns(self) -> dict[str, dict[str, Any]]:
         return {
             name: {
-                "time_s": each.time,
-                "true_strain": each.true_strain,
-                "true_stress_MPa": each.data,
-                "base_stress_MPa": each.base,
-                "explained_stress_MPa": np.nan if each.explained is None else each.explained,
-                "noise_MPa": each.noise,
+                "time_s": record.time,
+                "true_strain": record.true_strain,
+                "true_stress_MPa": record.data,
+                "base_stress_MPa": record.base,
+                "explained_stress_MPa": np.nan if record.explained is None else record.explained,
+                "noise_MPa": record.noise,
             }
-            for name, each in self.curves.items()
+            for name, record in self.curves.items()
         }
 
     @property
@@ -424,7 +424,8 @@ class Diagnosis(Result, Stored):
             "headline": self.headline,
             "base": {
                 "parameters": {
-                    each.name: {"value": each.value, "se": each.se, "status": each.status} for each in self.base
+                    parameter.name: {"value": parameter.value, "se": parameter.se, "status": parameter.status}
+                    for parameter in self.base
                 }
             },
             "gap": {
@@ -443,51 +444,56 @@ class Diagnosis(Result, Stored):
                     "of_certificate_tolerance": self.size.relative / CERTIFICATE.tolerance,
                 },
             },
-            "records": {name: each.to_dict() for name, each in self.curves.items()},
-            "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
+            "records": {name: record.to_dict() for name, record in self.curves.items()},
+            "held_out_gap": {name: gap.to_dict() for name, gap in self.held_out.items()},
             "judged_on": self.judged_on,
             "scatter": {} if self.scatter is None else self.scatter.to_dict(),
             "gap_if_alike": self.gap_if_alike,
-            "where": [_located(each) for each in self.located],
-            "acts": [_located(each) for each in self.acts],
+            "where": [_located(region) for region in self.located],
+            "acts": [_located(region) for region in self.acts],
             "signatures": [
-                {"kind": each.kind, "record": each.record, "p_value": each.p_value, "text": each.text}
-                for each in self.signatures
+                {
+                    "kind": signature.kind,
+                    "record": signature.record,
+                    "p_value": signature.p_value,
+                    "text": signature.text,
+                }
+                for signature in self.signatures
             ],
-            "causes": [_explanation(each) for each in self.explanations],
-            "effects": [each.to_dict() for each in self.effects],
-            "answer_set": [list(each) for each in self.answer_set],
+            "causes": [_explanation(explanation) for explanation in self.explanations],
+            "effects": [effect.to_dict() for effect in self.effects],
+            "answer_set": [list(effects) for effects in self.answer_set],
             "shrink": {
                 "identify": shrink.identify.to_dict(),
                 "held_out": None if shrink.held_out is None else shrink.held_out.to_dict(),
-                "records": {name: each.to_dict() for name, each in shrink.records.items()},
-                "regions": [{**_located(place), **each.to_dict()} for place, each in shrink.regions],
+                "records": {name: closure.to_dict() for name, closure in shrink.records.items()},
+                "regions": [{**_located(place), **closure.to_dict()} for place, closure in shrink.regions],
                 "ceiling": None if shrink.ceiling is None else shrink.ceiling.to_dict(),
             },
             "next_test": None if self.next_test is None else self.next_test.to_dict(),
-            "next_tests": [each.to_dict() for each in self.next_tests],
+            "next_tests": [test.to_dict() for test in self.next_tests],
             "isolability": None if self.isolability is None else self.isolability.to_dict(),
             "remainder": None if self.remainder is None else self.remainder.to_dict(),
-            "skipped": [each.to_dict() for each in self.skipped],
+            "skipped": [entry.to_dict() for entry in self.skipped],
             "calibration": self.calibration.to_dict(),
             "warnings": list(self.warnings),
         }
 
 
-def _located(each: Located) -> dict[str, Any]:
+def _located(region: Located) -> dict[str, Any]:
     return {
-        "record": each.record,
-        "time_s": each.time_s,
-        "true_strain": each.true_strain,
-        "rms_MPa": each.rms_MPa,
-        "share": each.share,
-        "p_value": each.p_value,
+        "record": region.record,
+        "time_s": region.time_s,
+        "true_strain": region.true_strain,
+        "rms_MPa": region.rms_MPa,
+        "share": region.share,
+        "p_value": region.p_value,
     }
 
 
-def _explanation(each: Explanation) -> dict[str, Any]:
+def _explanation(explanation: Explanation) -> dict[str, Any]:
     parameters = {}
-    for parameter in each.parameters:
+    for parameter in explanation.parameters:
         name = parameter.name if parameter.name not in parameters else f"{parameter.effect}.{parameter.name}"
         parameters[name] = {
             "value": parameter.value,
@@ -495,12 +501,12 @@ def _explanation(each: Explanation) -> dict[str, Any]:
             "unit": parameter.unit,
             "bound": parameter.bound,
         }
-    checks = each.checks
+    checks = explanation.checks
     return {
-        "effects": list(each.effects),
-        "records": list(each.records),
-        "probability": each.probability,
-        "forms": list(each.forms),
+        "effects": list(explanation.effects),
+        "records": list(explanation.records),
+        "probability": explanation.probability,
+        "forms": list(explanation.forms),
         "parameters": parameters,
         "checks": None
         if checks is None

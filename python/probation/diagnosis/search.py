@@ -88,10 +88,10 @@ class Search:
                 self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
-            for each in self._worth_extending(size, left):
-                if _keys(each.refit) not in extended:
-                    self._additions(each)
-                extended.add(_keys(each.refit))
+            for hypothesis in self._worth_extending(size, left):
+                if _keys(hypothesis.refit) not in extended:
+                    self._additions(hypothesis)
+                extended.add(_keys(hypothesis.refit))
             if size == 1 and left:
                 self._swaps(extended)
             self._rivals_jointly()
@@ -130,7 +130,7 @@ class Search:
         again = Search(base, self.effects, self.threads, self._moved, self.skipping)
         leading = self._near_the_best_of_as_many(hopeless)
         steps = SEARCH.first_steps if self.budget.spent() else MOST_STEPS
-        begun = [(each.refit.model, each.refit.parameters) for each in leading]
+        begun = [(hypothesis.refit.model, hypothesis.refit.parameters) for hypothesis in leading]
         again.found += again._judged(again._solved(begun, steps))
         again._try_with_unknown()
         return again
@@ -143,13 +143,13 @@ class Search:
         """
         best: dict[int, list[Hypothesis]] = {}
         seen: set[frozenset[Key]] = set()
-        for each in sorted(self.found[1:], key=_standing, reverse=True):
-            near = best.setdefault(len(each.effects), [])
-            close = not near or _standing(each) > _standing(near[0]) - hopeless
-            if close and len(near) < SEARCH.reconsidered and _keys(each.refit) not in seen:
-                near.append(each)
-                seen.add(_keys(each.refit))
-        return [each for near in best.values() for each in near]
+        for hypothesis in sorted(self.found[1:], key=_standing, reverse=True):
+            near = best.setdefault(len(hypothesis.effects), [])
+            close = not near or _standing(hypothesis) > _standing(near[0]) - hopeless
+            if close and len(near) < SEARCH.reconsidered and _keys(hypothesis.refit) not in seen:
+                near.append(hypothesis)
+                seen.add(_keys(hypothesis.refit))
+        return [hypothesis for near in best.values() for hypothesis in near]
 
     def ranked(self, size: int | None = None, *, acting_once: bool = False) -> list[Hypothesis]:
         """Hypotheses with causes, most evidence first, the best of each set of effects.
@@ -157,12 +157,12 @@ class Search:
         Of so many effects only; of those only whose effects act once each.
         """
         best: dict[tuple[str, ...], Hypothesis] = {}
-        for each in self.found[1:]:
-            if (size is not None and len(each.effects) != size) or (acting_once and _acts_in_several(each)):
+        for hypothesis in self.found[1:]:
+            if (size is not None and len(hypothesis.effects) != size) or (acting_once and _acts_in_several(hypothesis)):
                 continue
-            known = best.get(each.effects)
-            if known is None or _standing(each) > _standing(known):
-                best[each.effects] = each
+            known = best.get(hypothesis.effects)
+            if known is None or _standing(hypothesis) > _standing(known):
+                best[hypothesis.effects] = hypothesis
         return sorted(best.values(), key=_standing, reverse=True)
 
     def _worth_extending(self, size: int, left: bool) -> list[Hypothesis]:
@@ -174,16 +174,16 @@ class Search:
         leading, once = self.ranked(size), self.ranked(size, acting_once=True)
         least = -np.inf if size == 1 else _standing(leading[0]) - SEARCH.hopeless
         first, *others = [*once[:most], *filter(_acts_in_several, leading[:most])]
-        return [first, *(each for each in others if _standing(each) > least)]
+        return [first, *(hypothesis for hypothesis in others if _standing(hypothesis) > least)]
 
     def _something_left(self, best: Hypothesis) -> bool:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
 
     def _singles(self, columns: WhitenedColumns) -> None:
-        found = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
+        screened = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
         for start in self.base.other_starts if self.base.screens_other_starts else ():
-            found += self._candidates_at(start)
-        candidates = self._credible(sorted(found, key=lambda each: -each.gain), self.base.refit)
+            screened += self._candidates_at(start)
+        candidates = self._credible(sorted(screened, key=lambda candidate: -candidate.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))
         begun = self._refitted(self.base.refit, _alone(first), self.base.other_starts, SEARCH.first_steps)
         begun += self._refitted(self.base.refit, _promising_in_several(candidates), steps=SEARCH.first_steps)
@@ -191,10 +191,10 @@ class Search:
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind)
         polished = self._further(running, MOST_STEPS)
-        single = [each for each in running if len(each.model.causes) == 1]
-        keys = {cause_key(each.model.causes[0]) for each in single}
+        single = [fit for fit in running if len(fit.model.causes) == 1]
+        keys = {cause_key(fit.model.causes[0]) for fit in single}
         others = _others(_promising(candidates), first, SEARCH.starts - 1)
-        more = [each for each in others if cause_key(each.cause) in keys]
+        more = [candidate for candidate in others if cause_key(candidate.cause) in keys]
         polished += self._refitted(self.base.refit, _alone(more), self.base.other_starts)
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
@@ -203,16 +203,16 @@ class Search:
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
         """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both."""
         jobs, residual = [], self.base.model.residual(self.base.refit.parameters)
-        for one, other in combinations(_least_of_each([each for each in singles if _hidden(each)]).values(), 2):
+        for one, other in combinations(_least_of_each([single for single in singles if _hidden(single)]).values(), 2):
             pair = one.model.causes[-1], other.model.causes[-1]
             if _hidden(one) != _hidden(other) or pair[0].effect is pair[1].effect:
                 continue
             model = self.base.model.with_causes(pair)
             views = [view for view in model.views if pair[0].touches(view.id)]
             residuals = [residual[model.rows(view.id)] for view in views]
-            for starts in product(*(each.form.nonlinear_starts(views, residuals)[: SEARCH.starts] for each in pair)):
+            for starts in product(*(cause.form.nonlinear_starts(views, residuals)[: SEARCH.starts] for cause in pair)):
                 jobs.append((model, model.parameters(self.base.refit.parameters, *starts)))
-        begun = sorted(self._solved(jobs, SEARCH.first_steps), key=lambda each: each.chi_square)
+        begun = sorted(self._solved(jobs, SEARCH.first_steps), key=lambda fit: fit.chi_square)
         return self._further(begun[: SEARCH.starts], MOST_STEPS)
 
     def _candidates_at(self, start: FloatArray) -> list[Candidate]:
@@ -227,7 +227,10 @@ class Search:
         span = span_of(slopes)
         more, least = without(residual, span), without(base.residual, span_of(base.jacobian))
         worse = float(more @ more - least @ least)
-        return [replace(each, base=start, gain=each.gain - worse) for each in white.candidates(residual, span)]
+        return [
+            replace(candidate, base=start, gain=candidate.gain - worse)
+            for candidate in white.candidates(residual, span)
+        ]
 
     def _in_the_running(self, refits: Sequence[Refit]) -> tuple[list[Refit], list[Refit]]:
         """Which of unfinished refits may lead, by what they leave and by their evidence, and which are far behind.
@@ -237,27 +240,27 @@ class Search:
         its way has lower evidence than one that arrives at a worse place.
         """
         limit = self._limit(refits)
-        near = {id(each) for each in refits if each.chi_square <= limit}
+        near = {id(fit) for fit in refits if fit.chi_square <= limit}
         if self._gap_left(refits) > SEARCH.strong_gap:
-            close = [each for each in refits if id(each) in near]
-            scores = {id(each): _score(known) for each, known in zip(close, self._evidences(close), strict=True)}
+            close = [fit for fit in refits if id(fit) in near]
+            scores = {id(fit): _score(known) for fit, known in zip(close, self._evidences(close), strict=True)}
             count = len(self.base.whitened)
             best = max((score for score in scores.values() if np.isfinite(score)), default=0.0)
             left = max(-best - 0.5 * count - np.sqrt(2.0 * count), 0.0)
             least = best - (SEARCH.worth_polishing - 1.0) * left - SEARCH.slack
-            effects = {_placed(each) for each in refits if scores.get(id(each), -np.inf) >= least}
-            near = {id(each) for each in refits if id(each) in near and _placed(each) in effects}
-        return [each for each in refits if id(each) in near], [each for each in refits if id(each) not in near]
+            effects = {_placed(fit) for fit in refits if scores.get(id(fit), -np.inf) >= least}
+            near = {id(fit) for fit in refits if id(fit) in near and _placed(fit) in effects}
+        return [fit for fit in refits if id(fit) in near], [fit for fit in refits if id(fit) not in near]
 
     def _gap_left(self, refits: Sequence[Refit]) -> float:
         """What the best refit leaves of the gap, above the noise for certain; the noise itself is the same for all."""
-        best = min((each.chi_square for each in refits), default=np.inf)
+        best = min((fit.chi_square for fit in refits), default=np.inf)
         count = len(self.base.whitened)
         return float(max(best - count - SEARCH.certain_gap * np.sqrt(2.0 * count), 0.0))
 
     def _limit(self, refits: Sequence[Refit]) -> float:
         """Least that a cause may leave and still be out of the race."""
-        best = min((each.chi_square for each in refits), default=np.inf)
+        best = min((fit.chi_square for fit in refits), default=np.inf)
         return float(best + (SEARCH.in_the_race - 1.0) * self._gap_left(refits) + SEARCH.slack)
 
     def _additions(self, leading: Hypothesis, only: Cause | None = None) -> None:
@@ -275,27 +278,31 @@ class Search:
         def unsolved(cause: Cause, error: Exception) -> None:
             self.skipping.hypothesis([*leading.causes, cause], error)
 
-        effects = self.effects if only is None else [each for each in self.effects if each.name == only.effect.name]
+        effects = (
+            self.effects if only is None else [effect for effect in self.effects if effect.name == only.effect.name]
+        )
         columns = screen(model, at, effects, residual=raw, threads=self.threads, unsolved=unsolved)
         taken = {(cause.effect.name, cause.records) for cause in leading.causes}
         once = {cause.effect.name for cause in leading.causes if not cause.form.several}
-        columns = [each for each in columns if (each.cause.effect.name, each.cause.records) not in taken]
-        columns = [each for each in columns if each.cause.form.several or each.cause.effect.name not in once]
+        columns = [column for column in columns if (column.cause.effect.name, column.cause.records) not in taken]
+        columns = [column for column in columns if column.cause.form.several or column.cause.effect.name not in once]
         if only is not None:
-            columns = [each for each in columns if each.cause.records == only.records]
+            columns = [column for column in columns if column.cause.records == only.records]
         elif len(leading.effects) >= SEARCH.most_effects:
-            columns = [each for each in columns if each.cause.effect.name in leading.effects]
+            columns = [column for column in columns if column.cause.effect.name in leading.effects]
         white = WhitenedColumns.of(columns, self.base.whitener, len(raw))
         ranked = self._credible(
             white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
         )
-        chosen = _forms_of_the_best([each for each in ranked if each.gain > SEARCH.worth_refitting], SEARCH.additions)
-        most = max((each.gain for each in ranked), default=0.0)
-        several = [each for each in _in_several(ranked) if only is None and _gain(each) > most]
+        chosen = _forms_of_the_best(
+            [candidate for candidate in ranked if candidate.gain > SEARCH.worth_refitting], SEARCH.additions
+        )
+        most = max((candidate.gain for candidate in ranked), default=0.0)
+        several = [together for together in _in_several(ranked) if only is None and _gain(together) > most]
         begun = self._refitted(leading.refit, [*_alone(chosen), *several], steps=SEARCH.first_steps)
         ahead = _least_of_each_effect(begun, len(leading.causes))
-        kept = {id(each) for each in ahead}
-        self.found += self._judged([each for each in begun if id(each) not in kept])
+        kept = {id(fit) for fit in ahead}
+        self.found += self._judged([fit for fit in begun if id(fit) not in kept])
         self.found += self._judged(self._further(ahead, MOST_STEPS))
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
@@ -304,31 +311,33 @@ class Search:
         lines = {line.record for line in find_lines(left) if line.p_value < SEARCH.line_or_step_level}
         steps = {step.record: step.p_value for step in find_steps(left)}
         periodic = self._periodic_in_strain(left)
-        smooth_ones = [each for each in candidates if each.cause.form.sharp is None]
-        best_smooth = max(smooth_ones, key=lambda each: each.gain, default=None)
+        smooth_ones = [candidate for candidate in candidates if candidate.cause.form.sharp is None]
+        best_smooth = max(smooth_ones, key=lambda candidate: candidate.gain, default=None)
         smooth = 0.0 if best_smooth is None else best_smooth.gain
 
-        def credible(each: Candidate) -> bool:
-            sharp = each.cause.form.sharp
-            places = {*steps} if each.cause.records is None else {*each.cause.records}
+        def credible(candidate: Candidate) -> bool:
+            sharp = candidate.cause.form.sharp
+            places = {*steps} if candidate.cause.records is None else {*candidate.cause.records}
             if sharp is None or (
-                sharp == "step" and each.gain > max(SEARCH.soft_step_ratio * smooth, SEARCH.strong_gap)
+                sharp == "step" and candidate.gain > max(SEARCH.soft_step_ratio * smooth, SEARCH.strong_gap)
             ):
                 return True
-            if sharp == "step" and best_smooth is not None and each.cause.effect is best_smooth.cause.effect:
+            if sharp == "step" and best_smooth is not None and candidate.cause.effect is best_smooth.cause.effect:
                 return True  # a slip that creeps may be one that takes some samples
             if sharp == "line":
                 return bool(places & lines)
             if sharp == "strain_period":
                 return bool(places & periodic)
-            level = SEARCH.soft_step_level if each.gain > smooth + SEARCH.soft_step_lead else SEARCH.line_or_step_level
+            level = (
+                SEARCH.soft_step_level if candidate.gain > smooth + SEARCH.soft_step_lead else SEARCH.line_or_step_level
+            )
             return min((steps.get(name, 1.0) for name in places), default=1.0) < level
 
-        return [each for each in candidates if credible(each)]
+        return [candidate for candidate in candidates if credible(candidate)]
 
     def _periodic_in_strain(self, left: Whitened) -> set[str]:
         """Records in which something is periodic in the strain: all of them, where it shows in all together."""
-        seen = {each.record for each in find_strain_periodic(left) if each.p_value < SEARCH.line_or_step_level}
+        seen = {wave.record for wave in find_strain_periodic(left) if wave.p_value < SEARCH.line_or_step_level}
         return {record.name for record in left.records if None in seen or record.name in seen}
 
     def _parts_of_the_leader(self) -> None:
@@ -338,23 +347,23 @@ class Search:
         another form jointly with the second one. An effect that acts in several records was begun in them together.
         """
         while leading := self.ranked()[:1]:
-            found = leading[0].refit
-            causes = found.model.causes
-            key = _keys(found)
+            whole = leading[0].refit
+            causes = whole.model.causes
+            key = _keys(whole)
             if len(causes) < 2 or key in self._taken_apart or self.budget.spent():
                 return
             self._taken_apart.add(key)
-            base, values = found.model.split(found.parameters)
+            base, values = whole.model.split(whole.parameters)
             jobs = []
             for kept in _parts(causes):
                 part = list(compress(values, kept))
-                model = found.model.with_causes(cause for cause, _ in part)
+                model = whole.model.with_causes(cause for cause, _ in part)
                 jobs.append((model, model.parameters(base, *(own for _, own in part))))
             parts = self._judged(self._solved(jobs, MOST_STEPS))
             self.found += parts
             once = [cause for cause in causes if sum(other.effect is cause.effect for other in causes) == 1]
             for cause in once:
-                without_it = [each for each in parts if _keys(each.refit) == key - {cause_key(cause)}]
+                without_it = [hypothesis for hypothesis in parts if _keys(hypothesis.refit) == key - {cause_key(cause)}]
                 if without_it:
                     self._additions(without_it[0], cause)
             self._try_with_unknown()
@@ -367,21 +376,21 @@ class Search:
         """
         leading = self.ranked()[:1]
         least_standing = _standing(leading[0]) - SEARCH.hopeless if leading else -np.inf
-        near = [_keys(each.refit) for each in self.found[1:] if _standing(each) > least_standing]
-        hopeful = [any(keys <= _keys(each.refit) for keys in near) for each in self.found[1:]]
-        before = [each.refit for each in compress(self.found[1:], hopeful)]
+        near = [_keys(hypothesis.refit) for hypothesis in self.found[1:] if _standing(hypothesis) > least_standing]
+        hopeful = [any(keys <= _keys(hypothesis.refit) for keys in near) for hypothesis in self.found[1:]]
+        before = [hypothesis.refit for hypothesis in compress(self.found[1:], hopeful)]
         after = self._not_above_their_parts(before)
         moved = {id(old): new for old, new in zip(before, after, strict=True) if new is not old}
-        kept = [each for each in self.found[1:] if id(each.refit) not in moved]
-        found = [*kept, *self._judged(moved.values())]
-        least = _least_of_each(each.refit for each in found)
+        kept = [hypothesis for hypothesis in self.found[1:] if id(hypothesis.refit) not in moved]
+        hypotheses = [*kept, *self._judged(moved.values())]
+        least = _least_of_each(hypothesis.refit for hypothesis in hypotheses)
         self.found = self.found[:1]
-        for each in found:
-            parts = [other.chi_square for keys, other in least.items() if keys < _keys(each.refit)]
-            if each.refit.chi_square <= min(parts, default=np.inf) + SEARCH.settled:
-                self.found.append(each)
+        for hypothesis in hypotheses:
+            parts = [other.chi_square for keys, other in least.items() if keys < _keys(hypothesis.refit)]
+            if hypothesis.refit.chi_square <= min(parts, default=np.inf) + SEARCH.settled:
+                self.found.append(hypothesis)
             else:
-                self.skipping.hypothesis(each.causes, "its refits leave more than a part of it does alone")
+                self.skipping.hypothesis(hypothesis.causes, "its refits leave more than a part of it does alone")
         self._try_with_unknown()
 
     def _swaps(self, extended: set[frozenset[Key]]) -> None:
@@ -390,7 +399,7 @@ class Search:
         Not from a cause that was `extended` already.
         """
         for name in pairs[0].effects if (pairs := self.ranked(2)) else ():
-            alone = next((each for each in self.ranked(1) if each.effects == (name,)), None)
+            alone = next((hypothesis for hypothesis in self.ranked(1) if hypothesis.effects == (name,)), None)
             if alone is not None and _keys(alone.refit) not in extended:
                 self._additions(alone)
                 extended.add(_keys(alone.refit))
@@ -401,12 +410,12 @@ class Search:
         A limit is a force, and specimens have sections of their own. Of each effect the form that leaves least.
         """
         views, jobs = self.base.model.views, []
-        for each in _least_of_each_effect([each for each in singles if len(each.model.causes) == 1], 0):
-            cause = each.model.causes[0]
+        for single in _least_of_each_effect([fit for fit in singles if len(fit.model.causes) == 1], 0):
+            cause = single.model.causes[0]
             of_the_force = cause.form.recorded_stress is not None and "one" in cause.effect.placements(cause.form)
             alike = cause.records is None and len(views) > 1
-            if of_the_force and alike and self._gap_left([each]) > SEARCH.strong_gap:
-                base, ((_, values),) = each.model.split(each.parameters)
+            if of_the_force and alike and self._gap_left([single]) > SEARCH.strong_gap:
+                base, ((_, values),) = single.model.split(single.parameters)
                 apart = self.base.model.with_causes(Cause(cause.effect, cause.form, (view.id,)) for view in views)
                 jobs.append((apart, apart.parameters(base, *[values] * len(views))))
         return self._solved(jobs, SEARCH.first_steps)
@@ -414,18 +423,22 @@ class Search:
     def _rivals_jointly(self) -> None:
         """The leader of several effects with its first one given up for what is about as good as that by itself."""
         leading = self.ranked()[0]
-        alone = {each.effects[0]: each for each in self.ranked(1)}
+        alone = {hypothesis.effects[0]: hypothesis for hypothesis in self.ranked(1)}
         known = [name for name in leading.effects if name in alone]
         if len(leading.effects) < 2 or not known:
             return
         first = max(known, key=lambda name: _standing(alone[name]))
         least = _standing(alone[first]) - SEARCH.hopeless
-        near = [each for each in self.found[1:] if len(each.effects) == 1 and _standing(each) > least]
-        rivals = [each for each in near if each.effects[0] not in leading.effects]
+        near = [
+            hypothesis
+            for hypothesis in self.found[1:]
+            if len(hypothesis.effects) == 1 and _standing(hypothesis) > least
+        ]
+        rivals = [hypothesis for hypothesis in near if hypothesis.effects[0] not in leading.effects]
         base, values = leading.refit.model.split(leading.refit.parameters)
         rest = [(cause, own) for cause, own in values if cause.effect.name != first]
-        tried, jobs = {_keys(each.refit) for each in self.found}, []
-        for rival in _least_of_each(each.refit for each in rivals).values():
+        tried, jobs = {_keys(hypothesis.refit) for hypothesis in self.found}, []
+        for rival in _least_of_each(hypothesis.refit for hypothesis in rivals).values():
             together = [*rival.model.split(rival.parameters)[1], *rest]
             causes = [cause for cause, _ in together]
             if frozenset(cause_key(cause) for cause in causes) in tried:
@@ -447,12 +460,12 @@ class Search:
         """
         jobs = []
         for together in added:
-            causes = [*before.model.causes, *(each.cause for each in together)]
+            causes = [*before.model.causes, *(candidate.cause for candidate in together)]
             if (model := self._with_causes(before.model, causes)) is None:
                 continue
             own = together[0].base
             begun = (before.parameters, *other_starts) if own is None else (own,)
-            jobs += [(model, np.concatenate([start, *(each.values for each in together)])) for start in begun]
+            jobs += [(model, np.concatenate([start, *(candidate.values for candidate in together)])) for start in begun]
         return self._solved(jobs, steps)
 
     def _with_causes(self, model: CampaignModel, causes: Sequence[Cause]) -> CampaignModel | None:
@@ -467,7 +480,7 @@ class Search:
         """Unfinished refits taken further; left as they are once the budget is spent."""
         if self.budget.spent():
             return list(refits)
-        return self._solved([(each.model, each) for each in refits], steps)
+        return self._solved([(fit.model, fit) for fit in refits], steps)
 
     def _solved(self, jobs: Sequence[tuple[CampaignModel, FloatArray | Refit]], steps: int) -> list[Refit]:
         """Refits from models and starts; without those that the law cannot follow from there."""
@@ -507,23 +520,23 @@ class Search:
         with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
             misfit = float(np.sum(problem.residual(first) ** 2))
         if misfit <= len(self.base.whitened) + SEARCH.strong_gap:
-            found = refit(problem, start, most_steps=steps)
-            if not specimens_hold_the_gap(model, noises, first, found.parameters):
-                return found
+            fit = refit(problem, start, most_steps=steps)
+            if not specimens_hold_the_gap(model, noises, first, fit.parameters):
+                return fit
         alike = refit(problem.with_noises(noises), first, most_steps=steps).parameters
         begun = refit(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
         if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
             if begun.steps < SEARCH.steps_apart:
                 return begun
-            found = refit(problem, begun, most_steps=steps)
-            if not specimens_hold_the_gap(model, noises, alike, found.parameters):
-                return found
+            fit = refit(problem, begun, most_steps=steps)
+            if not specimens_hold_the_gap(model, noises, alike, fit.parameters):
+                return fit
         there = refit(problem, alike, most_steps=0)
         if there.chi_square <= self.base.refit.chi_square:
             return there
-        found = refit(problem, begun, most_steps=steps)
-        held = specimens_hold_the_gap(model, noises, self._without_effect(model), found.parameters)
-        return there if held else found
+        fit = refit(problem, begun, most_steps=steps)
+        held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
+        return there if held else fit
 
     def _without_effect(self, model: CampaignModel) -> FloatArray:
         """The base fit as parameters of a model whose causes are absent."""
@@ -532,30 +545,30 @@ class Search:
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there."""
-        known = [*(each.refit for each in self.found), *refits]
-        for count in sorted({len(each.model.causes) for each in refits}):
+        known = [*(hypothesis.refit for hypothesis in self.found), *refits]
+        for count in sorted({len(fit.model.causes) for fit in refits}):
             if self.budget.spent():
                 break
             least = _least_of_each(known)
             jobs: list[tuple[CampaignModel, FloatArray]] = []
             before: list[Refit] = []
-            for each in refits:
-                if len(each.model.causes) != count:
+            for whole in refits:
+                if len(whole.model.causes) != count:
                     continue
                 part = min(
-                    (other for keys, other in least.items() if keys < _keys(each)), key=lambda other: other.chi_square
+                    (other for keys, other in least.items() if keys < _keys(whole)), key=lambda other: other.chi_square
                 )
-                if each.chi_square > part.chi_square + SEARCH.settled:
-                    jobs.append((each.model, _with_others_absent(each, part)))
-                    before.append(each)
+                if whole.chi_square > part.chi_square + SEARCH.settled:
+                    jobs.append((whole.model, _with_others_absent(whole, part)))
+                    before.append(whole)
             # A single effect that leaves more than none has lost the race: none of it leaves as much as none.
-            lower = {id(each.model): each for each in self._solved(jobs, MOST_STEPS if count > 1 else 0)}
+            lower = {id(fit.model): fit for fit in self._solved(jobs, MOST_STEPS if count > 1 else 0)}
             better = {
-                id(each): lower[id(each.model)]
-                for each in before
-                if id(each.model) in lower and lower[id(each.model)].chi_square < each.chi_square
+                id(fit): lower[id(fit.model)]
+                for fit in before
+                if id(fit.model) in lower and lower[id(fit.model)].chi_square < fit.chi_square
             }
-            refits = [better.get(id(each), each) for each in refits]
+            refits = [better.get(id(fit), fit) for fit in refits]
             known += better.values()
         return refits
 
@@ -563,29 +576,29 @@ class Search:
         """Refits with their evidence; without those of which it cannot be worked out."""
         final = self._not_above_their_parts(list(refits))
         judged = []
-        for each, known in zip(final, self._evidences(final), strict=True):
+        for fit, known in zip(final, self._evidences(final), strict=True):
             if isinstance(known, str):
-                self.skipping.hypothesis(each.model.causes, known)
+                self.skipping.hypothesis(fit.model.causes, known)
             elif np.isfinite(known.log_evidence):
-                judged.append(Hypothesis(each, known))
+                judged.append(Hypothesis(fit, known))
             else:
-                self.skipping.hypothesis(each.model.causes, "its evidence is not finite")
+                self.skipping.hypothesis(fit.model.causes, "its evidence is not finite")
         return judged
 
     def _evidences(self, refits: Sequence[Refit]) -> list[Evidence | str]:
         """The evidence of each refit; why, where it cannot be worked out."""
 
-        def one(found: Refit) -> Evidence | str:
+        def one(fit: Refit) -> Evidence | str:
             try:
-                return self._weighed(found).evidence
+                return self._weighed(fit).evidence
             except UNSOLVABLE as error:
                 return str(error)
 
         return in_parallel(one, refits, self.threads)
 
-    def _weighed(self, found: Refit, *, unknown: bool = False) -> Hypothesis:
-        forms = form_freedom(found, self.base.whitener)
-        return Hypothesis(found, evidence(found, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown))
+    def _weighed(self, fit: Refit, *, unknown: bool = False) -> Hypothesis:
+        forms = form_freedom(fit, self.base.whitener)
+        return Hypothesis(fit, evidence(fit, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown))
 
     def _try_with_unknown(self) -> None:
         """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""
@@ -594,12 +607,12 @@ class Search:
             *self.ranked(1)[: SEARCH.fewer_with_unknown],
             *self.ranked(2)[: SEARCH.fewer_with_unknown],
         ]
-        leading = {id(each) for each in ahead}
+        leading = {id(hypothesis) for hypothesis in ahead}
         self.found = [
-            self._weighed(each.refit, unknown=True)
-            if id(each) in leading and not np.isfinite(each.evidence.log_evidence_unknown)
-            else each
-            for each in self.found
+            self._weighed(hypothesis.refit, unknown=True)
+            if id(hypothesis) in leading and not np.isfinite(hypothesis.evidence.log_evidence_unknown)
+            else hypothesis
+            for hypothesis in self.found
         ]
 
     def _begin(self, low: float, high: float) -> None:
@@ -639,17 +652,17 @@ def _parts(causes: Sequence[Cause]) -> list[tuple[bool, ...]]:
     return [kept for kept in dict.fromkeys(parts) if any(kept) and not all(kept)]
 
 
-def _keys(found: Refit) -> frozenset[Key]:
-    return frozenset(cause_key(each) for each in found.model.causes)
+def _keys(fit: Refit) -> frozenset[Key]:
+    return frozenset(cause_key(cause) for cause in fit.model.causes)
 
 
 def _least_of_each(refits: Iterable[Refit]) -> dict[frozenset[Key], Refit]:
     """Of each set of causes the refit that leaves least."""
     least: dict[frozenset[Key], Refit] = {}
-    for each in refits:
-        keys = _keys(each)
-        if keys not in least or each.chi_square < least[keys].chi_square:
-            least[keys] = each
+    for fit in refits:
+        keys = _keys(fit)
+        if keys not in least or fit.chi_square < least[keys].chi_square:
+            least[keys] = fit
     return least
 
 
@@ -663,25 +676,25 @@ def _with_others_absent(whole: Refit, part: Refit) -> FloatArray:
 
 def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
     """The best start of every form and placement; of placements in one record the best few."""
-    found: list[Candidate] = []
+    chosen: list[Candidate] = []
     seen: set[Key] = set()
     alone: dict[tuple[str, str], int] = {}
-    for each in candidates:
-        key = cause_key(each.cause)
+    for candidate in candidates:
+        key = cause_key(candidate.cause)
         if key in seen:
             continue
-        if each.cause.records is not None:
+        if candidate.cause.records is not None:
             if alone.get(key[:2], 0) >= SEARCH.places:
                 continue
             alone[key[:2]] = alone.get(key[:2], 0) + 1
         seen.add(key)
-        found.append(each)
-    return found
+        chosen.append(candidate)
+    return chosen
 
 
 def _alone(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
     """Each to be added by itself."""
-    return [(each,) for each in candidates]
+    return [(candidate,) for candidate in candidates]
 
 
 def _in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
@@ -693,22 +706,22 @@ def _in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
     """
     best: dict[tuple[str, bool], dict[tuple[str, ...], Candidate]] = {}
     alike: dict[tuple[str, str, tuple[float, ...]], dict[tuple[str, ...], Candidate]] = {}
-    for each in candidates:
-        cause = each.cause
+    for candidate in candidates:
+        cause = candidate.cause
         if not cause.form.several:
             continue
-        if each.base is None and cause.records is not None and each.gain > SEARCH.worth_refitting:
+        if candidate.base is None and cause.records is not None and candidate.gain > SEARCH.worth_refitting:
             for smooth in {False, cause.form.sharp is None}:
-                best.setdefault((cause.effect.name, smooth), {}).setdefault(cause.records, each)
-            start = cause.effect.name, cause.form.name, each.values[1:]
-            alike.setdefault(start, {}).setdefault(cause.records, each)
-    found: list[tuple[Candidate, ...]] = []
+                best.setdefault((cause.effect.name, smooth), {}).setdefault(cause.records, candidate)
+            start = cause.effect.name, cause.form.name, candidate.values[1:]
+            alike.setdefault(start, {}).setdefault(cause.records, candidate)
+    groups: list[tuple[Candidate, ...]] = []
     for (name, smooth), own in best.items():
         starts = [tuple(places.values()) for (effect, *_), places in alike.items() if effect == name]
         for together in (tuple(own.values()), *([] if smooth else [max(starts, key=_gain)])):
-            if len(together) > 1 and together not in found:
-                found.append(together)
-    return found
+            if len(together) > 1 and together not in groups:
+                groups.append(together)
+    return groups
 
 
 def _promising_in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
@@ -718,14 +731,18 @@ def _promising_in_several(candidates: Sequence[Candidate]) -> list[tuple[Candida
     """
     least = _least_promising(candidates)
     alone: dict[str, float] = {}
-    for each in candidates:
-        alone.setdefault(each.cause.effect.name, each.gain)
-    return [each for each in _in_several(candidates) if _gain(each) >= max(least, alone[each[0].cause.effect.name])]
+    for candidate in candidates:
+        alone.setdefault(candidate.cause.effect.name, candidate.gain)
+    return [
+        together
+        for together in _in_several(candidates)
+        if _gain(together) >= max(least, alone[together[0].cause.effect.name])
+    ]
 
 
 def _gain(together: Sequence[Candidate]) -> float:
     """What candidates in different records gain, each by itself: about what they gain together."""
-    return sum(each.gain for each in together)
+    return sum(candidate.gain for candidate in together)
 
 
 def _hidden(single: Refit) -> tuple[str, tuple[str, ...] | None] | None:
@@ -745,47 +762,49 @@ def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
     Of a weak gap the linearised model says all; of a strong one it says at least where a search would not even begin.
     """
     least = _least_promising(candidates)
-    return [each for each in candidates if each.gain >= least and each.gain > 0.0]
+    return [candidate for candidate in candidates if candidate.gain >= least and candidate.gain > 0.0]
 
 
 def _least_promising(candidates: Sequence[Candidate]) -> float:
-    best = max((each.gain for each in candidates), default=0.0)
+    best = max((candidate.gain for candidate in candidates), default=0.0)
     strong = best / (best + SEARCH.strong_gap) if best > 0.0 else 0.0
     return best - max(SEARCH.race_gain, (1.0 - SEARCH.race_fraction) * strong * best)
 
 
 def _others(candidates: Sequence[Candidate], first: Sequence[Candidate], count: int) -> list[Candidate]:
     """Further starts of the same causes."""
-    given = {id(each) for each in first}
-    wanted = {cause_key(each.cause) for each in first}
+    given = {id(candidate) for candidate in first}
+    wanted = {cause_key(candidate.cause) for candidate in first}
     many: dict[Key, int] = {}
-    found = []
-    for each in candidates:
-        key = cause_key(each.cause)
-        if id(each) in given or key not in wanted or many.get(key, 0) >= count:
+    further = []
+    for candidate in candidates:
+        key = cause_key(candidate.cause)
+        if id(candidate) in given or key not in wanted or many.get(key, 0) >= count:
             continue
         many[key] = many.get(key, 0) + 1
-        found.append(each)
-    return found
+        further.append(candidate)
+    return further
 
 
 def _forms_of_the_best(candidates: Sequence[Candidate], count: int) -> list[Candidate]:
     """The best start of every form of each of the best effects; in all records and in one count apart."""
-    effects = list(dict.fromkeys((each.cause.effect.name, each.cause.records is None) for each in candidates))[:count]
-    found: dict[tuple[str, bool, str], Candidate] = {}
-    for each in candidates:
-        effect = each.cause.effect.name, each.cause.records is None
+    effects = list(
+        dict.fromkeys((candidate.cause.effect.name, candidate.cause.records is None) for candidate in candidates)
+    )[:count]
+    best: dict[tuple[str, bool, str], Candidate] = {}
+    for candidate in candidates:
+        effect = candidate.cause.effect.name, candidate.cause.records is None
         if effect in effects:
-            found.setdefault((*effect, each.cause.form.name), each)
-    return list(found.values())
+            best.setdefault((*effect, candidate.cause.form.name), candidate)
+    return list(best.values())
 
 
 def _least_of_each_effect(refits: Sequence[Refit], before: int) -> list[Refit]:
     """Of the forms of each effect that was added to `before` causes, the one that leaves least; in several apart."""
     least: dict[tuple[str, bool, bool], Refit] = {}
-    for each in refits:
-        added = each.model.causes[before:]
+    for fit in refits:
+        added = fit.model.causes[before:]
         key = added[0].effect.name, added[0].records is None, len(added) > 1
-        if key not in least or each.chi_square < least[key].chi_square:
-            least[key] = each
+        if key not in least or fit.chi_square < least[key].chi_square:
+            least[key] = fit
     return list(least.values())

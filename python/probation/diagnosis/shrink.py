@@ -56,7 +56,7 @@ def shrink_of(
     noises = {noise.name: noise for noise in base.whitened.noises} | {
         noise.name: noise for noise in base.held_out_noises
     }
-    before, after = (_without_specimens(base, each) for each in (before, after))
+    before, after = (_without_specimens(base, predicted) for predicted in (before, after))
     pieces = {
         view.id: Piece(
             without_outliers(before[view.id] - view.data, noises[view.id].outliers),
@@ -116,13 +116,13 @@ def _predicted(explained: OnAllRecords, before: dict[str, FloatArray], skipping:
     """Predictions of an explanation by record; a record that it cannot be solved for keeps what it had."""
     model = explained.model
     base, causes = model.split(explained.parameters)
-    found = dict(before)
+    predicted = dict(before)
     for view in model.views:
         try:
-            found[view.id] = view.sampled(model.recorded(view, base, causes))
+            predicted[view.id] = view.sampled(model.recorded(view, base, causes))
         except UNSOLVABLE as error:
             skipping.part(f"the best explanation's prediction of {view.id}", error)
-    return found
+    return predicted
 
 
 def _without_specimens(base: BaseFit, predicted: Mapping[str, FloatArray]) -> dict[str, FloatArray]:

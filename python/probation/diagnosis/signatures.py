@@ -38,7 +38,7 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
     base : BaseFit
     best : Hypothesis
     """
-    found: list[Signature] = []
+    entries: list[Signature] = []
     whitened, names = base.whitened, base.law.parameter_names
     left = whitened
     if all(cause.form.sharp is None for cause in best.causes):
@@ -46,14 +46,14 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
     for line in find_lines(left):
         if line.p_value < DETECTION.signature_level:
             text = f"a wave of {line.amplitude_MPa:.2g} MPa at {line.frequency_Hz:.3g} Hz in {line.record}"
-            found.append(Signature("line", line.record, line.p_value, text))
+            entries.append(Signature("line", line.record, line.p_value, text))
     for step in find_steps(left):
         if step.p_value < DETECTION.signature_level:
             text = (
                 f"a step of {-step.size_MPa:+.2g} MPa in {step.record} at {step.time_s:.4g} s "
                 f"(true strain {step.true_strain:.3g})"
             )
-            found.append(Signature("step", step.record, step.p_value, text))
+            entries.append(Signature("step", step.record, step.p_value, text))
     if len(whitened.records) > 2:
         for drift in parameter_drift(whitened, names, _covariates(base)):
             if drift.heterogeneity_p_value >= DETECTION.signature_level:
@@ -64,8 +64,8 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
                 f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to "
                 f"{percentage(reach / max(value, 1e-300))} % of its value"
             )
-            found.append(Signature("parameter", None, drift.heterogeneity_p_value, text))
-    return tuple(found)
+            entries.append(Signature("parameter", None, drift.heterogeneity_p_value, text))
+    return tuple(entries)
 
 
 def changes_with(drift: Drift) -> str:
@@ -82,8 +82,8 @@ def changes_with(drift: Drift) -> str:
 def _covariates(base: BaseFit) -> dict[str, Sequence[float]]:
     """The usual ones, and the mean temperature where every record has one."""
     along = usual_covariates(base.whitened)
-    temperatures = [each.temperature for each in base.model.views]
-    known = [float(np.mean(each)) for each in temperatures if each is not None]
+    temperatures = [view.temperature for view in base.model.views]
+    known = [float(np.mean(temperature)) for temperature in temperatures if temperature is not None]
     if len(known) == len(base.whitened.records):
         along["temperature"] = known
     return along

@@ -78,7 +78,7 @@ class Skipping:
         found : sequence of Hypothesis
             All that were solved.
         """
-        solved = {frozenset(cause_key(cause) for cause in each.causes) for each in found}
+        solved = {frozenset(cause_key(cause) for cause in hypothesis.causes) for hypothesis in found}
         reasons: dict[tuple[str, ...], dict[frozenset[Key], str]] = {}
         for keys, why in self._hypotheses:
             if keys not in solved:

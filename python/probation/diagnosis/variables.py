@@ -64,9 +64,9 @@ def variables_of(views: Sequence[RecordView], specimens: Sequence[str]) -> list[
         Of which specimen each of them is.
     """
     return [
-        each
-        for each in every_variable(views, specimens)
-        if np.ptp(each.values) > REMAINDER.least_range * max(float(np.max(np.abs(each.values))), 1e-300)
+        variable
+        for variable in every_variable(views, specimens)
+        if np.ptp(variable.values) > REMAINDER.least_range * max(float(np.max(np.abs(variable.values))), 1e-300)
     ]
 
 
@@ -88,7 +88,7 @@ def every_variable(views: Sequence[RecordView], specimens: Sequence[str]) -> lis
 
     groups = list(dict.fromkeys(specimens))
     place = {view.id: groups.index(specimen) for view, specimen in zip(views, specimens, strict=True)}
-    found = [
+    variables = [
         Variable("strain", "the strain", "true strain [–]", stacked(lambda view: view.sampled(view.true_strain))),
         Variable("strain_rate", "the strain rate", "decades of the strain rate [log₁₀ 1/s]", stacked(_decades)),
         Variable("time", "the time", "time since the start of the test [s]", stacked(lambda v: v.sampled(v.elapsed))),
@@ -121,10 +121,10 @@ def every_variable(views: Sequence[RecordView], specimens: Sequence[str]) -> lis
         ),
     ]
     temperatures = [view.temperature for view in views]
-    if all(each is not None for each in temperatures):
-        values = np.concatenate([each for each in temperatures if each is not None])
-        found.append(Variable("temperature", "the temperature", "temperature [°C]", values))
-    return found
+    if all(temperature is not None for temperature in temperatures):
+        values = np.concatenate([temperature for temperature in temperatures if temperature is not None])
+        variables.append(Variable("temperature", "the temperature", "temperature [°C]", values))
+    return variables
 
 
 def phases_of(views: Sequence[RecordView]) -> dict[str, NDArray[np.bool_]]:
