@@ -61,7 +61,7 @@ NUMERICAL = {
     "noise/white_level.py": {"FINE"},
     "noise/whitener.py": {"LEAST_SHARED"},
     "detection/gap_test.py": {"ABSORBED"},
-    "detection/strain_periodic.py": {"FINE", "GRID"},
+    "detection/strain_periodic.py": {"FREQUENCIES_PER_SPACING", "GRID"},
     "detection/tail.py": {"MANY", "_NODES", "_WEIGHTS"},
     "smoothing/averaging.py": {"PART", "BEYOND", "ORDERS"},
     "smoothing/necking.py": {"REFINED"},

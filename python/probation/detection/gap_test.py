@@ -194,14 +194,14 @@ class GapTester:
 
     def _with_drift(self, values: FloatArray) -> FloatArray:
         """Reduced coordinates in which the rest of the drift is white, too."""
-        found = values.copy()
+        white = values.copy()
         first = 0
         for frame, noise in zip(self._reduced.frames, self.whitened.noises, strict=True):
             part = slice(first, first + frame.shape[1])
             first = part.stop
             if noise.nuisance_drift is not None:
-                found[part] = jointly_whitened(frame.T @ noise.whiten(noise.nuisance_drift), values[part])
-        return found
+                white[part] = jointly_whitened(frame.T @ noise.whiten(noise.nuisance_drift), values[part])
+        return white
 
     def _p_values(self, products: FloatArray) -> dict[str, FloatArray]:
         return {

@@ -70,7 +70,7 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
     ----------
     whitened : Whitened
     """
-    found = []
+    lines = []
     for index, record in enumerate(whitened.records):
         count = len(record)
         if count < DETECTION.fewest_for_lines * DETECTION.slowest_line:
@@ -93,8 +93,8 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         columns = whitened.noises[index].whiten(np.column_stack([np.cos(wave), np.sin(wave)]))
         parts = np.linalg.lstsq(columns - white @ (white.T @ columns), left, rcond=None)[0]
         p_value = smallest_of_many(single, tried)
-        found.append(Line(record.name, float(frequency[best]), float(np.hypot(*parts)), p_value))
-    return tuple(sorted(found, key=lambda line: line.p_value))
+        lines.append(Line(record.name, float(frequency[best]), float(np.hypot(*parts)), p_value))
+    return tuple(sorted(lines, key=lambda line: line.p_value))
 
 
 def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: int = 0) -> tuple[Step, ...]:
@@ -111,7 +111,7 @@ def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: in
     seed : int
     """
     rng = np.random.default_rng(seed)
-    found = []
+    strongest = []
     for index, record in enumerate(whitened.records):
         count = len(record)
         if count < DETECTION.fewest_for_steps * DETECTION.slowest_line:
@@ -145,10 +145,10 @@ def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: in
         family = float(family_p_value(single, normal_tail(drawn, spread)))
         p_value = smallest_of_many(family, len(whitened.records))
         place = int(near[at])
-        found.append(
+        strongest.append(
             Step(record.name, float(record.time[place]), float(record.true_strain[place]), along / norm[at], p_value)
         )
-    return tuple(sorted(found, key=lambda step: step.p_value))
+    return tuple(sorted(strongest, key=lambda step: step.p_value))
 
 
 def _local_noise_sd(left: FloatArray, place: int) -> float:
@@ -156,12 +156,12 @@ def _local_noise_sd(left: FloatArray, place: int) -> float:
 
     The noise model may have missed a burst; a step is looked for with short windows, and would find it.
     """
-    found = 1.0
+    size = 1.0
     for reach in DETECTION.step_neighbours:
         around = np.r_[max(place - reach, 0) : max(place - 1, 0), place + 2 : min(place + reach, len(left))]
         if around.size > reach:
-            found = max(found, float(np.sqrt(np.mean(left[around] ** 2))))
-    return found
+            size = max(size, float(np.sqrt(np.mean(left[around] ** 2))))
+    return size
 
 
 def _spread_by_wander(whitened: Whitened, index: int, white: FloatArray, direction: FloatArray) -> float:

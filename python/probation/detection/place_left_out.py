@@ -48,14 +48,14 @@ def place_left_out(whitened: Whitened, located: Sequence[Located]) -> Whitened:
     out, moved = np.zeros(len(whitened), dtype=bool), np.zeros(tangent.shape[1])
     score = float(whitened.residual @ whitened.residual)
     for _ in range(DETECTION.most_places_left_out):
-        tried = [out | each for each in candidates]
-        tried = [each for each in tried if each.sum() > out.sum() and 1.0 - each.mean() >= DETECTION.least_share_kept]
+        tried = [out | rows for rows in candidates]
+        tried = [rows for rows in tried if rows.sum() > out.sum() and 1.0 - rows.mean() >= DETECTION.least_share_kept]
         if not tried:
             break
-        moves = [_moved(tangent, whitened.residual, ~each) for each in tried]
+        moves = [_moved(tangent, whitened.residual, ~rows) for rows in tried]
         scores = [
-            float(np.sum((whitened.residual - tangent @ move)[~each] ** 2) + np.sum(each))
-            for move, each in zip(moves, tried, strict=True)
+            float(np.sum((whitened.residual - tangent @ move)[~rows] ** 2) + np.sum(rows))
+            for move, rows in zip(moves, tried, strict=True)
         ]
         best = int(np.argmin(scores))
         if scores[best] > score - DETECTION.least_gain_of_a_place:

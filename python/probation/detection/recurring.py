@@ -53,7 +53,7 @@ def find_recurring(whitened: Whitened) -> tuple[Recurring, ...]:
     """
     ends = [end(record.true_strain) for record in whitened.records for end in (np.min, np.max)]
     largest = float(max(ends, key=abs))  # negative in compression
-    found = []
+    bumps = []
     for part in DETECTION.bump_widths:
         width = part * abs(largest)
         places = np.sign(largest) * np.arange(width, abs(largest), width)
@@ -66,8 +66,8 @@ def find_recurring(whitened: Whitened) -> tuple[Recurring, ...]:
         reached = np.sum([share.seen for share in shares.values()], axis=0)
         shared = np.flatnonzero(reached >= 2)
         if shared.size:
-            found.append(_strongest(shares, places, shared))
-    return tuple(sorted(found, key=lambda each: each.p_value))
+            bumps.append(_strongest(shares, places, shared))
+    return tuple(sorted(bumps, key=lambda bump: bump.p_value))
 
 
 @dataclass(frozen=True, eq=False)

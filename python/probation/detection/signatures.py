@@ -66,7 +66,7 @@ def parameter_drift(
     tangent = whitened.whiten([record.tangent for record in records])
     residual = np.concatenate([noise.whiten(whitened.clean(index)) for index, noise in enumerate(whitened.noises)])
     along = dict(covariates) if covariates is not None else usual_covariates(whitened)
-    found = []
+    drifts = []
     for column, name in enumerate(names):
         own = np.zeros((len(whitened), count))
         for index, part in enumerate(whitened.slices):
@@ -99,7 +99,7 @@ def parameter_drift(
             p_values[label] = float(2.0 * normal_tail(abs(slope) / np.sqrt(max(normal[1, 1], 1e-300)), level))
             scattered[label] = _chance_among_scattered(place, value, np.diag(spread))
         ids = [records[int(i)].name for i in known]
-        found.append(
+        drifts.append(
             Drift(
                 name,
                 dict(zip(ids, away.tolist(), strict=True)),
@@ -110,7 +110,7 @@ def parameter_drift(
                 slopes,
             )
         )
-    return tuple(found)
+    return tuple(drifts)
 
 
 def usual_covariates(whitened: Whitened) -> dict[str, Sequence[float]]:

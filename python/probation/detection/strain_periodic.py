@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from probation.noise.whitening import Whitened
 
 
-FINE = 4
+FREQUENCIES_PER_SPACING = 4
 """Frequencies per natural spacing at which power is known."""
 
 
@@ -95,16 +95,18 @@ def find_strain_periodic(whitened: Whitened) -> tuple[StrainPeriodic, ...]:
             step * longest
         )
         together, terms = np.zeros(len(frequency)), np.zeros(len(frequency))
-        found = []
+        components = []
         for spectrum in spectra:
             power, count = spectrum.comb(frequency, harmonics)
             together, terms = together + power, terms + count
-            found.append(_strongest(spectrum.record, frequency, power, count, step, families))
+            components.append(_strongest(spectrum.record, frequency, power, count, step, families))
         if len(spectra) > 1:
-            found.append(_strongest(None, frequency, together, terms, step, families))
-        for each in found:
-            if each is not None and (each.record not in best or each.p_value < best[each.record].p_value):
-                best[each.record] = each
+            components.append(_strongest(None, frequency, together, terms, step, families))
+        for candidate in components:
+            if candidate is not None and (
+                candidate.record not in best or candidate.p_value < best[candidate.record].p_value
+            ):
+                best[candidate.record] = candidate
     return tuple(sorted(best.values(), key=lambda component: component.p_value))
 
 
@@ -125,23 +127,28 @@ def strain_periodic_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     log_share : float
         See `StrainPeriodic.log_share`; 0 if none is certain.
     """
-    found = next(
-        (each for each in find_strain_periodic(whitened) if each.p_value < DETECTION.strain_periodic_level), None
+    component = next(
+        (
+            candidate
+            for candidate in find_strain_periodic(whitened)
+            if candidate.p_value < DETECTION.strain_periodic_level
+        ),
+        None,
     )
-    if found is None:
+    if component is None:
         return np.zeros((len(whitened), 0)), 0.0
     orders = np.arange(1, DETECTION.harmonics[-1] + 1)
     largest = max(float(np.max(np.abs(record.true_strain))) for record in whitened.records)
     parts = []
     for record in whitened.records:
-        phase = 2.0 * np.pi / found.period_strain * np.outer(record.true_strain, orders)
-        within = 1.0 if found.record in (None, record.name) else 0.0
+        phase = 2.0 * np.pi / component.period_strain * np.outer(record.true_strain, orders)
+        within = 1.0 if component.record in (None, record.name) else 0.0
         wave = within * np.hstack([np.cos(phase), np.sin(phase)])
         parts.append(np.hstack([wave, wave * (record.true_strain / largest)[:, None]]))
     columns = whitened.whiten(parts)
     share = np.tile(orders**-2.0, 4)
     size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-    return np.asarray(columns / size * np.sqrt(share / share.sum())), found.log_share
+    return np.asarray(columns / size * np.sqrt(share / share.sum())), component.log_share
 
 
 def likely_periods(strains: Sequence[FloatArray], values: Sequence[FloatArray], most: int = 3) -> list[float]:
@@ -159,20 +166,20 @@ def likely_periods(strains: Sequence[FloatArray], values: Sequence[FloatArray], 
     longest = max(float(np.ptp(strain)) for strain in strains)
     if not longest > 0.0:
         return []
-    spacing = 1.0 / (FINE * longest)
-    count = max(len(strain) for strain in strains) * FINE // DETECTION.shortest_strain_period + 1
+    spacing = 1.0 / (FREQUENCIES_PER_SPACING * longest)
+    count = max(len(strain) for strain in strains) * FREQUENCIES_PER_SPACING // DETECTION.shortest_strain_period + 1
     total = np.zeros(count)
     for strain, own in zip(strains, values, strict=True):
         slow = waves(len(own), DETECTION.slowest_line)
         total += _power(strain, own - slow @ (slow.T @ own), spacing, count)
-    total[: FINE * DETECTION.slowest_line // 2] = 0.0
-    found = []
+    total[: FREQUENCIES_PER_SPACING * DETECTION.slowest_line // 2] = 0.0
+    periods = []
     for _ in range(most):
         top = int(np.argmax(total))
         if total[top] > 0.0:
-            found.append(1.0 / (top * spacing))
-        total[max(top - FINE, 0) : top + FINE + 1] = 0.0
-    return found
+            periods.append(1.0 / (top * spacing))
+        total[max(top - FREQUENCIES_PER_SPACING, 0) : top + FREQUENCIES_PER_SPACING + 1] = 0.0
+    return periods
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,10 +210,12 @@ class _Spectrum:
         left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
         most = _height(np.abs(left))
         left = np.clip(left, -most, most)
-        spacing = 1.0 / (FINE * longest)
+        spacing = 1.0 / (FREQUENCIES_PER_SPACING * longest)
         count = int(len(record) / (DETECTION.shortest_harmonic * extent * spacing)) + 1
         power = _power(record.true_strain, left, spacing, count)
-        level = running_median(power, DETECTION.line_neighbours * FINE // DETECTION.oversampling) / np.log(2.0)
+        level = running_median(
+            power, DETECTION.line_neighbours * FREQUENCIES_PER_SPACING // DETECTION.oversampling
+        ) / np.log(2.0)
         level = np.maximum(level, 1.0)
         for column in speed_wander_in(whitened, index, white).T:
             level += _power(record.true_strain, column, spacing, count)
@@ -243,8 +252,8 @@ def _power(strain: FloatArray, values: FloatArray, spacing: float, count: int) -
     cell = place.astype(np.intp)
     part = place - cell
     cells = np.bincount(cell, (1.0 - part) * values, even) + np.bincount(cell + 1, part * values, even)
-    found: FloatArray = np.abs(rfft(cells)[:count]) ** 2 / len(values)
-    return found
+    power: FloatArray = np.abs(rfft(cells)[:count]) ** 2 / len(values)
+    return power
 
 
 def _strongest(

@@ -304,7 +304,7 @@ def _report(
     total: float,
     p_values: list[float],
 ) -> tuple[Located, ...]:
-    found = []
+    located = []
     for record, inside, own, p_value in zip(records, masks, energy, p_values, strict=True):
         count = len(record)
         for part in runs(
@@ -313,7 +313,7 @@ def _report(
             least=max(int(DETECTION.shortest_region * count), 1),
         ):
             strain = record.true_strain[part]
-            found.append(
+            located.append(
                 Located(
                     record.name,
                     (float(record.time[part][0]), float(record.time[part][-1])),
@@ -324,4 +324,4 @@ def _report(
                     part,
                 )
             )
-    return tuple(sorted(found, key=lambda each: -each.share))
+    return tuple(sorted(located, key=lambda region: -region.share))
