@@ -127,13 +127,13 @@ def effect_signals(
     left_out = {}
     for effect in effects:
         if effect.name not in shown:
-            failed = (each for item, each in zip(wanted, worked, strict=True) if item[0].effect == effect)
+            failed = (result for item, result in zip(wanted, worked, strict=True) if item[0].effect == effect)
             known = "the law does not know what it would change"
             if effect.name in present:
                 known = "it is in the model already"
             elif not any(form.visible_in(model.views) for form in effect.forms):
                 known = "these records could not show it"
-            reasons = (each for each in failed if isinstance(each, str))
+            reasons = (reason for reason in failed if isinstance(reason, str))
             left_out[effect.name] = unsolvable.get(effect.name) or next(reasons, known)
     return [signal for signal in signals if signal.cause.effect.name in shown], left_out
 
@@ -212,12 +212,12 @@ def _values_tried(form: Form, views: tuple[RecordView, ...]) -> list[tuple[tuple
     if form.threshold:
         return [(values, True) for values in starts]
     size = usual_size(form.amplitude)
-    found = [((size, *nonlinear), True) for nonlinear in starts]
+    tried = [((size, *nonlinear), True) for nonlinear in starts]
     if form.starts is not None:
-        return found
+        return tried
     if form.needs_solve:
-        found += [((DESIGN.small_part * size, *nonlinear), False) for nonlinear in starts]
-    return found + [((size, *nonlinear), False) for nonlinear in _further_values(form) if nonlinear not in starts]
+        tried += [((DESIGN.small_part * size, *nonlinear), False) for nonlinear in starts]
+    return tried + [((size, *nonlinear), False) for nonlinear in _further_values(form) if nonlinear not in starts]
 
 
 def _further_values(form: Form) -> list[tuple[float, ...]]:

@@ -78,12 +78,12 @@ def isolability(
         threads,
         lambda part: advance(0.5 + 0.5 * part),
     )
-    found = [
+    described = [
         _described(design, rivalry, signals[k], row, raw[:, k], probability[row], smallest[row])
         for row, k in enumerate(rivalry.chosen)
     ]
     return Isolability(
-        tuple(view.id for view in model.views), tuple(found), cosine, probability, tuple(left_out.items())
+        tuple(view.id for view in model.views), tuple(described), cosine, probability, tuple(left_out.items())
     )
 
 

@@ -146,8 +146,8 @@ class Isolability:
                 joined = friends[effect.name] | friends[rival]
                 for name in joined:
                     friends[name] = joined
-        found = {tuple(sorted(friends[name], key=names.index)): None for name in names if len(friends[name]) > 1}
-        return tuple(found)
+        groups = {tuple(sorted(friends[name], key=names.index)): None for name in names if len(friends[name]) > 1}
+        return tuple(groups)
 
     def with_status(self, *wanted: Status) -> tuple[EffectIsolability, ...]:
         """The effects with one of these statuses."""

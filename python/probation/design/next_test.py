@@ -154,7 +154,11 @@ def next_test(
     known = [RivalExplanation.of(*explanation, noises) for explanation in explanations]
     base = known[int(np.argmax(prior))].parameters[: model.base_count]
 
-    titles = {cause.effect.name: cause.effect.title for each, *_ in explanations for cause in each.causes}
+    titles = {
+        cause.effect.name: cause.effect.title
+        for explanation_model, *_ in explanations
+        for cause in explanation_model.causes
+    }
     names = [" with ".join(titles.get(name, name) for name in effects) or "no effect" for effects in answers]
     before = max(float(prior[[g == answer for g in group]].sum()) for answer in range(len(answers)))
 
@@ -198,15 +202,15 @@ def judged(
     before : float
         Probability of a right answer without the test.
     """
-    found = outcome(ways, prior, group, draws=DESIGN.draws, seed=seed)
+    expected = outcome(ways, prior, group, draws=DESIGN.draws, seed=seed)
     rough = outcome([way.through(DESIGN.rough_noise) for way in ways], prior, group, draws=DESIGN.draws, seed=seed)
-    separated, surely = _separated(found.pairwise)
+    separated, surely = _separated(expected.pairwise)
     return RankedTest(
         test=test,
-        probability_after=found.probability,
+        probability_after=expected.probability,
         probability_in_rough_hands=rough.probability,
-        information=found.information,
-        what=_sentence(test.what, found.probability, [names[at] for at in separated], surely, before),
+        information=expected.information,
+        what=_sentence(test.what, expected.probability, [names[at] for at in separated], surely, before),
         separates=[answers[at] for at in separated],
     )
 

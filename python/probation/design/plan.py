@@ -139,7 +139,7 @@ class Plan(Result, Stored):
             "seed": self.seed,
             "law": law_answer(self.law),
             "tests": [test.to_dict() for test in self.tests],
-            "parameters": {outside_name(name): found.to_json() for name, found in self.parameters.items()},
+            "parameters": {outside_name(name): parameter.to_json() for name, parameter in self.parameters.items()},
             "products": {f"unrelaxed_modulus_MPa*{second}": self.product.to_json()},
             "correlation": {"names": [outside_name(name) for name in self.names], "matrix": self.correlation},
             "isolability": self.isolability.to_dict(),
@@ -236,7 +236,7 @@ def plan(
     # Which effects can be detected and discriminated: those that were named, or all that such records could show.
     if effects is None:
         chosen = visible(chosen, predicted.views)
-    found = isolability(
+    effect_isolability = isolability(
         model,
         model.start,
         noises,
@@ -255,7 +255,7 @@ def plan(
         **_known(law, held, covariance, lost, len(design.tangent)),
         names=tuple(name for name in law.parameter_names if name not in held),
         correlation=correlation(covariance),
-        isolability=found,
+        isolability=effect_isolability,
         seed=seed,
         warnings=_extrapolations(law, excitations),
     )
@@ -276,15 +276,15 @@ def _by_test(
     if set(by_test) != set(ids):
         raise InputError(f"{name}: found numbers for {', '.join(by_test)}, expected one for each of {', '.join(ids)}")
     expected = ("a number of at least 0" if zero else "a positive number") + (f" [{unit}]" if unit else "")
-    found = {}
+    numbers = {}
     for test in ids:
         try:
-            found[test] = float(by_test[test])
+            numbers[test] = float(by_test[test])
         except (TypeError, ValueError):
-            found[test] = np.nan
-        if not (0.0 < found[test] < np.inf or (zero and found[test] == 0.0)):
+            numbers[test] = np.nan
+        if not (0.0 < numbers[test] < np.inf or (zero and numbers[test] == 0.0)):
             raise InputError(f"{name} of {test!r}: found {by_test[test]!r}, expected {expected}")
-    return found
+    return numbers
 
 
 def _described(record: Record, history: str, excitation: Excitation) -> PlannedTest:
@@ -322,7 +322,7 @@ def _known(
         relative = np.inf if se is None or not value else se / abs(value)
         return estimated(name, float(value), se, relative, degrees, unit)
 
-    found = {
+    parameters = {
         name: expected(name, values[at], every[at, at], gone[at], UNITS[name])
         for at, name in enumerate(law.parameter_names)
         if free[at]
@@ -330,7 +330,7 @@ def _known(
     slope = np.array([values[1], values[0], 0.0])
     unit = "MPa·s" if law.companion is None else "MPa"
     product = expected("product", values[0] * values[1], slope @ every @ slope, gone[:2].any(), unit)
-    return {"parameters": found, "product": product}
+    return {"parameters": parameters, "product": product}
 
 
 def _extrapolations(law: Law, excitations: Mapping[str, Excitation]) -> tuple[str, ...]:

@@ -39,8 +39,8 @@ def imposed(histories: Mapping[str, History], law: Law) -> dict[str, ImposedHist
         If there is none, for what is no history, and where `creep` raises one.
     """
     if not isinstance(histories, Mapping) or not histories:
-        found = "none" if isinstance(histories, Mapping) else type(histories).__name__
-        raise InputError(f"histories: found {found}, expected at least one planned test by its name")
+        kind = "none" if isinstance(histories, Mapping) else type(histories).__name__
+        raise InputError(f"histories: found {kind}, expected at least one planned test by its name")
     strains = {}
     for name, given in histories.items():
         history = given

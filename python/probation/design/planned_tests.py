@@ -181,13 +181,13 @@ def zero_load_hold(lab: Laboratory) -> list[ProposedTest]:
 
 def repeats(lab: Laboratory) -> list[ProposedTest]:
     """A record over again."""
-    found = []
+    tests = []
     for view in lab.model.views:
         time, strain = view.sampled(view.elapsed), view.sampled(view.recorded_strain)
         jumps = tuple(jump // view.stride for jump in view.jumps)
         what = f"Repeat {view.id} on the same rig with a new specimen ({_time(view.duration)}, {len(time)} samples)"
-        found.append(ProposedTest("repeat", what, time, strain, jumps, repeats=view.id))
-    return found
+        tests.append(ProposedTest("repeat", what, time, strain, jumps, repeats=view.id))
+    return tests
 
 
 def other_rates(lab: Laboratory) -> list[ProposedTest]:
@@ -208,12 +208,12 @@ def other_rates(lab: Laboratory) -> list[ProposedTest]:
 def rate_jumps(lab: Laboratory) -> list[ProposedTest]:
     """From slow to fast and from fast to slow, half way."""
     low, high = lab.contrast
-    found = []
+    tests = []
     for name, first, second in (("rate_jump_up", low, high), ("rate_jump_down", high, low)):
         half = 0.5 * lab.strain
         what = f"Stretch at {first:.2g} /s to a true strain of {half:.2g}, then at {second:.2g} /s to {lab.strain:.2g}"
-        found.append(lab.legs(name, what, (half, half / first), (lab.strain, half / second)))
-    return found
+        tests.append(lab.legs(name, what, (half, half / first), (lab.strain, half / second)))
+    return tests
 
 
 def dwells(lab: Laboratory) -> list[ProposedTest]:
@@ -235,7 +235,7 @@ def dwells(lab: Laboratory) -> list[ProposedTest]:
 
 def unloading(lab: Laboratory) -> list[ProposedTest]:
     """Back to no load (to less, the specimen buckles) and up again, from half way and from just behind yield."""
-    found = []
+    tests = []
     for top in (0.5 * lab.strain, min(DESIGN.yield_strain, DESIGN.early_unloading * lab.strain)):
         down = lab.legs("down", "", (top, top / lab.usual), (0.0, top / lab.usual))
         pressed = (np.arange(len(down.time)) > down.jumps[0]) & (lab.stress(down) <= 0.0)
@@ -245,8 +245,8 @@ def unloading(lab: Laboratory) -> list[ProposedTest]:
             f"{turn:.2g}), stretch again to {lab.strain:.2g}"
         )
         rest = ((turn, (top - turn) / lab.usual), (lab.strain, (lab.strain - turn) / lab.usual))
-        found.append(lab.legs("unload_reload", what, (top, top / lab.usual), *rest))
-    return found
+        tests.append(lab.legs("unload_reload", what, (top, top / lab.usual), *rest))
+    return tests
 
 
 def dead_weight(lab: Laboratory) -> list[ProposedTest]:
@@ -313,13 +313,13 @@ PLANNERS: tuple[Planner, ...] = (
 
 def planned_tests(lab: Laboratory) -> list[ProposedTest]:
     """All tests of `PLANNERS` that take no longer than two days and that the base law can predict."""
-    found = []
+    tests = []
     for planner in PLANNERS:
         try:
-            found += [test for test in planner(lab) if test.duration <= DESIGN.longest_test]
+            tests += [test for test in planner(lab) if test.duration <= DESIGN.longest_test]
         except ConvergenceError:
             continue
-    return found
+    return tests
 
 
 def _straining_rate(view: RecordView) -> float:

@@ -71,8 +71,8 @@ class RivalExplanation:
         white = Whitener(tuple(noises)).columns(jacobian)
         known = np.zeros(len(parameters))
         known[model.base_count :] = [
-            _prior_precision(each.scale, each.log, value)
-            for each, value in zip(model.effect_parameters, parameters[model.base_count :], strict=True)
+            _prior_precision(parameter.scale, parameter.log, value)
+            for parameter, value in zip(model.effect_parameters, parameters[model.base_count :], strict=True)
         ]
         information = white.T @ white + np.diag(known)
         size = np.sqrt(np.diag(information))
@@ -134,7 +134,7 @@ def predictions(
     view = _view(test, model)
     noise = planned_noise(view, noises, model.views)
     view = view.as_predicted(model.law.stress(view, base))
-    found = []
+    predicted = []
     for owner, explanation in enumerate(explanations):
         confined = {cause.effect.name: cause for cause in explanation.model.causes if _may_come_back(cause)}
         ways = (
@@ -144,8 +144,10 @@ def predictions(
         )
         for back, weight in ways:
             stress, slopes = _on(view, explanation, back, test)
-            found.append(RivalPrediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ explanation.root)))
-    return found
+            predicted.append(
+                RivalPrediction(owner, weight, noise.whiten(stress), noise.whiten(slopes @ explanation.root))
+            )
+    return predicted
 
 
 def _view(test: ProposedTest, model: CampaignModel) -> RecordView:
