@@ -58,7 +58,7 @@ NUMERICAL = {
     "noise/local_noise.py": {"MEMORY"},
     "noise/local_size.py": {"MEDIAN_OF_NORMAL"},
     "noise/span.py": {"DEPENDENT", "HARDLY_NEW"},
-    "noise/white_level.py": {"FINE"},
+    "noise/white_level.py": {"LOG_LEVEL_TOLERANCE"},
     "noise/whitener.py": {"LEAST_SHARED"},
     "detection/gap_test.py": {"ABSORBED"},
     "detection/strain_periodic.py": {"FREQUENCIES_PER_SPACING", "GRID"},

@@ -206,7 +206,7 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     lowest : float
         Lowest frequency that was looked at [rad per sample].
     """
-    binned = [each.binned() for each in periodograms]
+    binned = [periodogram.binned() for periodogram in periodograms]
     deviance, best = float(_deviance(binned, np.zeros((1, 1, NOISE.spectrum_bins)))[0, 0]), (0.0, 0.0)
     tried, shape_of = _search(binned, max(1.0 - NOISE.no_rise_margin * lowest, NOISE.least_largest_phi))
     if deviance - tried > NOISE.least_gain:
@@ -215,12 +215,12 @@ def fit_arma(periodograms: list[Periodogram], lowest: float) -> ArmaFit:
     if deviance - tried > (NOISE.least_gain_of_low_rise if Arma(*best).rise < NOISE.steep_rise else 0.0):
         deviance, best = tried, shape_of
     shape = _table(np.array([best[0]]), np.array([best[1]]))[0, 0]
-    levels = [float(_level(each, shape)) for each in binned]
+    levels = [float(_level(periodogram, shape)) for periodogram in binned]
     return ArmaFit(
         tuple(Arma(best[0], best[1], float(np.sqrt(level))) for level in levels),
         deviance,
         min(NOISE.fisher_excess * _shape_variance(binned, best), NOISE.largest_log_variance),
-        tuple(2.0 / float(each.weight.sum()) for each in binned),
+        tuple(2.0 / float(periodogram.weight.sum()) for periodogram in binned),
     )
 
 
@@ -254,18 +254,18 @@ def _table(phi: FloatArray, theta: FloatArray) -> FloatArray:
     return np.asarray(top[None] - bottom[:, None], dtype=np.float64)
 
 
-def _level(each: Periodogram, shape: FloatArray) -> FloatArray:
-    ratio = np.exp(-shape) @ (each.power * each.weight) / each.weight.sum()
+def _level(periodogram: Periodogram, shape: FloatArray) -> FloatArray:
+    ratio = np.exp(-shape) @ (periodogram.power * periodogram.weight) / periodogram.weight.sum()
     return np.asarray(np.maximum(ratio, 1e-300), dtype=np.float64)
 
 
 def _deviance(binned: list[Periodogram], shape: FloatArray) -> FloatArray:
     """Twice Whittle's negative log-likelihood, the levels profiled out; `shape` is (a, b, BINS)."""
-    total = shape @ np.sum([each.weight for each in binned], axis=0)
+    total = shape @ np.sum([periodogram.weight for periodogram in binned], axis=0)
     ratio = np.exp(-shape)
-    for each in binned:
-        weight = each.weight.sum()
-        total += weight * (np.log(np.maximum(ratio @ (each.power * each.weight) / weight, 1e-300)) + 1.0)
+    for periodogram in binned:
+        weight = periodogram.weight.sum()
+        total += weight * (np.log(np.maximum(ratio @ (periodogram.power * periodogram.weight) / weight, 1e-300)) + 1.0)
     return np.asarray(total, dtype=np.float64)
 
 
@@ -280,12 +280,12 @@ def _shape_variance(binned: list[Periodogram], best: tuple[float, float]) -> flo
         return np.column_stack([along_phi, along_theta])
 
     information, means, weights = np.zeros((2, 2)), [], []
-    for each in binned:
-        slope = slopes(each.frequency)
-        mean = each.weight @ slope / each.weight.sum()
-        information += 0.5 * ((slope - mean).T * each.weight) @ (slope - mean)
+    for periodogram in binned:
+        slope = slopes(periodogram.frequency)
+        mean = periodogram.weight @ slope / periodogram.weight.sum()
+        information += 0.5 * ((slope - mean).T * periodogram.weight) @ (slope - mean)
         means.append(mean)
-        weights.append(each.weight.sum())
+        weights.append(periodogram.weight.sum())
     extrapolation = slopes(np.array([NOISE.long_run_frequency]))[0] - np.average(means, axis=0, weights=weights)
     if best == (0.0, 0.0):  # both slopes are the same: one direction is left, phi + theta
         return float(extrapolation[0] ** 2 / max(information[0, 0], 1e-300))

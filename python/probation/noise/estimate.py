@@ -46,55 +46,57 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
         In the order of the records.
     """
     prepared = [noise_evidence(record) for record in records]
-    seen = [each for each in prepared if each.rough is not None]
+    seen = [evidence for evidence in prepared if evidence.rough is not None]
     fits = iter(fit_spectra(seen, pool) if seen else ())
-    return tuple(_fallback(each) if each.rough is None else _model(each, next(fits)) for each in prepared)
+    return tuple(
+        _fallback(evidence) if evidence.rough is None else _model(evidence, next(fits)) for evidence in prepared
+    )
 
 
-def _model(each: NoiseEvidence, known: KnownSpectrum) -> NoiseModel:
+def _model(evidence: NoiseEvidence, known: KnownSpectrum) -> NoiseModel:
     arma = known.arma
-    floor = max(quantisation_noise(each.quantum), each.record.given_noise or 0.0)
-    source = each.source
+    floor = max(quantisation_noise(evidence.quantum), evidence.record.given_noise or 0.0)
+    source = evidence.source
     if arma.deviation < floor:
         arma = replace(arma, innovation=arma.innovation * floor / arma.deviation)
         source += "; raised to the noise that is given or to the readings' step"
     return NoiseModel(
-        each.record.name,
+        evidence.record.name,
         arma,
-        each.profile,
-        each.growth,
+        evidence.profile,
+        evidence.growth,
         float(arma.deviation),
-        each.white,
-        each.quantum,
-        _propagated(each.record),
+        evidence.white,
+        evidence.quantum,
+        _propagated(evidence.record),
         known.level_variance,
         known.shape_variance,
-        each.outliers,
+        evidence.outliers,
         source,
-        specimen=each.record.specimen,
-        specimen_id=each.record.specimen_id,
+        specimen=evidence.record.specimen,
+        specimen_id=evidence.record.specimen_id,
     )
 
 
-def _fallback(each: NoiseEvidence) -> NoiseModel:
-    record = each.record
+def _fallback(evidence: NoiseEvidence) -> NoiseModel:
+    record = evidence.record
     size = float(np.max(np.abs(record.residual if record.measured is None else record.measured), initial=0.0))
-    level = max(each.white, record.given_noise or 0.0, 1e-7 * size, 1e-12)
+    level = max(evidence.white, record.given_noise or 0.0, 1e-7 * size, 1e-12)
     if not record.given_noise and len(record) < NOISE.fewest_for_a_spectrum:
         level = max(level, NOISE.least_level_of_few * float(np.std(np.diff(record.residual))))
     return NoiseModel(
         record.name,
         Arma(innovation=level),
-        each.profile,
-        each.growth,
+        evidence.profile,
+        evidence.growth,
         level,
-        each.white,
-        each.quantum,
+        evidence.white,
+        evidence.quantum,
         _propagated(record),
         0.0 if record.given_noise else NOISE.level_variance_of_few / len(record),
         0.0,
-        each.outliers,
-        "as given" if record.given_noise and record.given_noise >= each.white else each.source,
+        evidence.outliers,
+        "as given" if record.given_noise and record.given_noise >= evidence.white else evidence.source,
         specimen=record.specimen,
         specimen_id=record.specimen_id,
     )

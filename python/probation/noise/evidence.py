@@ -107,8 +107,8 @@ def _rough(segments: list[FloatArray], profiles: list[FloatArray], degree: int, 
     """Cosine coefficients of the segments, polynomials projected out; segments with a transient left out."""
     rows: list[tuple[FloatArray, FloatArray, FloatArray]] = []
     for values, profile in zip(segments, profiles, strict=True):
-        each = _whole(values, legendre(len(values), degree), degree + 1, profile)
-        rows.append((each.frequency, each.power, each.weight))
+        periodogram = _whole(values, legendre(len(values), degree), degree + 1, profile)
+        rows.append((periodogram.frequency, periodogram.power, periodogram.weight))
     if not rows:
         return None
     if robust and len(rows) >= 3:

@@ -192,7 +192,9 @@ class NoiseModel:
 
     @property
     def _slow(self) -> FloatArray:
-        return np.hstack([self.propagated, *(each for each in (self.drift, self.specimen) if each is not None)])
+        return np.hstack(
+            [self.propagated, *(columns for columns in (self.drift, self.specimen) if columns is not None)]
+        )
 
     @cached_property
     def _root(self) -> Root:

@@ -49,9 +49,9 @@ def find_outliers(residual: FloatArray, jumps: Sequence[int] = ()) -> tuple[int,
     )
     for border in (0, *jumps):
         out[max(border - reach, 0) : border + reach + 1] = False
-    found = np.flatnonzero(out)
-    lone = [int(i) for i in found if np.count_nonzero(np.abs(found - i) <= reach) <= NOISE.longest_outlier]
-    if len(lone) < len(found) or len(lone) > max(3, NOISE.most_outliers * count):
+    outlying = np.flatnonzero(out)
+    lone = [int(i) for i in outlying if np.count_nonzero(np.abs(outlying - i) <= reach) <= NOISE.longest_outlier]
+    if len(lone) < len(outlying) or len(lone) > max(3, NOISE.most_outliers * count):
         return ()
     return tuple(lone)
 

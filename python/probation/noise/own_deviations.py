@@ -54,7 +54,7 @@ def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
 
 def specimen_columns(noises: Sequence[NoiseModel], slices: Sequence[slice]) -> list[FloatArray]:
     """What each specimen's deviations, of one standard deviation, do to all records: of shape (N, k) each [MPa]."""
-    found = []
+    by_specimen = []
     for members in specimens_of(noises):
         first = noises[members[0]].specimen
         if first is None or not first.shape[1]:
@@ -62,8 +62,8 @@ def specimen_columns(noises: Sequence[NoiseModel], slices: Sequence[slice]) -> l
         columns = np.zeros((slices[-1].stop, first.shape[1]))
         for index in members:
             columns[slices[index]] = noises[index].specimen
-        found.append(columns)
-    return found
+        by_specimen.append(columns)
+    return by_specimen
 
 
 def specimens_of(noises: Sequence[NoiseModel]) -> list[list[int]]:

@@ -42,7 +42,7 @@ class Region:
 
 def time_regions(records: Sequence[RecordResidual]) -> list[Region]:
     """Every record whole, halved, quartered ...; the finer ones also shifted by half their length."""
-    found = []
+    regions = []
     for index, record in enumerate(records):
         count = len(record)
         pieces = 1
@@ -55,23 +55,23 @@ def time_regions(records: Sequence[RecordResidual]) -> list[Region]:
                     inside[first:stop] = True
                     ends = record.time[first], record.time[stop - 1]
                     label = f"{record.name}, {ends[0]:.4g} to {ends[1]:.4g} s"
-                    found.append(Region("record" if pieces == 1 else "time", label, ((index, inside),)))
+                    regions.append(Region("record" if pieces == 1 else "time", label, ((index, inside),)))
             pieces *= 2
-    return found
+    return regions
 
 
 def state_regions(records: Sequence[RecordResidual]) -> list[Region]:
     """Parts of the strain range, decades of the rate, and loading, dwell and unloading, over all records together."""
-    found = []
+    regions = []
     strain = [record.true_strain for record in records]
     ends = np.linspace(min(s.min() for s in strain), max(s.max() for s in strain), NOISE.strain_regions + 1)
     for low, high in pairwise(ends):
         inside = [(s >= low) & ((s < high) | (high == ends[-1])) for s in strain]
-        found += _region("strain", f"true strain {low:.3g} to {high:.3g}", inside)
+        regions += _region("strain", f"true strain {low:.3g} to {high:.3g}", inside)
     phases = [record.phase for record in records]
     if len(np.unique(np.concatenate(phases))) > 1:
         for sign, label in PHASES.items():
-            found += _region("phase", label, [phase == sign for phase in phases])
+            regions += _region("phase", label, [phase == sign for phase in phases])
     with np.errstate(divide="ignore"):
         logs = [np.log10(np.abs(record.strain_rate)) for record in records]
     moving = np.concatenate([log[phase != 0.0] for log, phase in zip(logs, phases, strict=True)])
@@ -85,20 +85,20 @@ def state_regions(records: Sequence[RecordResidual]) -> list[Region]:
                 for log, phase in zip(logs, phases, strict=True)
             ]
             if pieces > 1:
-                found += _region("rate", f"strain rate {10.0**first:.2g} to {10.0**last:.2g} 1/s", inside)
-    return found
+                regions += _region("rate", f"strain rate {10.0**first:.2g} to {10.0**last:.2g} 1/s", inside)
+    return regions
 
 
 def runs(inside: NDArray[np.bool_], bridge: int = 0, least: int = 1) -> list[slice]:
     """Runs of True; gaps of up to `bridge` samples are closed, then runs below `least` samples dropped."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
-    found: list[list[int]] = []
+    bridged: list[list[int]] = []
     for first, stop in edges.reshape(-1, 2).tolist():
-        if found and first - found[-1][1] <= bridge:
-            found[-1][1] = stop
+        if bridged and first - bridged[-1][1] <= bridge:
+            bridged[-1][1] = stop
         else:
-            found.append([first, stop])
-    return [slice(first, stop) for first, stop in found if stop - first >= least]
+            bridged.append([first, stop])
+    return [slice(first, stop) for first, stop in bridged if stop - first >= least]
 
 
 def _region(kind: Kind, label: str, inside: list[NDArray[np.bool_]]) -> list[Region]:

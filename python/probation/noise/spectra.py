@@ -26,15 +26,15 @@ class KnownSpectrum:
 
 def fit_spectra(prepared: list[NoiseEvidence], pool: bool) -> list[KnownSpectrum]:
     """ARMA(1,1) of the rough part of the residuals; of the whole residuals where every record agrees with it."""
-    rough = [each.rough for each in prepared if each.rough is not None]
-    wholes = [own if each.whole is None else each.whole for each, own in zip(prepared, rough, strict=True)]
+    rough = [evidence.rough for evidence in prepared if evidence.rough is not None]
+    wholes = [own if evidence.whole is None else evidence.whole for evidence, own in zip(prepared, rough, strict=True)]
     bottom = min(float(part.frequency.min()) for part in wholes)
     groups = _groups(rough, bottom, pool)
-    if all(_agrees(wholes[i], rough[i], found, at) for group, found in groups for at, i in enumerate(group)):
+    if all(_agrees(wholes[i], rough[i], fit, at) for group, fit in groups for at, i in enumerate(group)):
         groups = _groups(wholes, bottom, pool)
     known = {
-        index: KnownSpectrum(found.models[at], found.level_variance[at], found.shape_variance)
-        for group, found in groups
+        index: KnownSpectrum(fit.models[at], fit.level_variance[at], fit.shape_variance)
+        for group, fit in groups
         for at, index in enumerate(group)
     }
     return [known[index] for index in range(len(prepared))]
@@ -49,24 +49,24 @@ def _groups(parts: list[Periodogram], bottom: float, pool: bool) -> list[tuple[l
             return [(everyone, shared)]
     alone = [fit_arma([part], bottom) for part in parts]
     extra = 2.0 * (len(parts) - 1)  # mean of a chi-square
-    if pool and shared.deviance - sum(each.deviance for each in alone) <= extra + NOISE.own_shape_errors * np.sqrt(
+    if pool and shared.deviance - sum(fit.deviance for fit in alone) <= extra + NOISE.own_shape_errors * np.sqrt(
         2.0 * extra
     ):
         return [(everyone, shared)]
-    return [([index], each) for index, each in enumerate(alone)]
+    return [([index], fit) for index, fit in enumerate(alone)]
 
 
-def _agrees(whole: Periodogram, own: Periodogram, found: ArmaFit, at: int) -> bool:
+def _agrees(whole: Periodogram, own: Periodogram, fit: ArmaFit, at: int) -> bool:
     """Whether a record's power below the rough part's frequencies, all of it and the lowest, is what the fit predicts.
 
     A bias shows first at the lowest frequencies. Power beyond the prediction is allowed for 1.5 standard errors of the
     logarithm of the predicted spectrum.
     """
-    allowed = float(np.exp(NOISE.prediction_margin * min(float(np.sqrt(found.shape_variance)), NOISE.prediction_error)))
+    allowed = float(np.exp(NOISE.prediction_margin * min(float(np.sqrt(fit.shape_variance)), NOISE.prediction_error)))
     below = np.flatnonzero(whole.frequency < own.frequency.min())
     for part in (below[: NOISE.lowest_coefficients], below):
         weight = whole.weight[part]
-        power = float(np.sum(weight * whole.power[part] / found.models[at].spectrum(whole.frequency[part]))) / allowed
+        power = float(np.sum(weight * whole.power[part] / fit.models[at].spectrum(whole.frequency[part]))) / allowed
         if part.size and float(chdtrc(float(np.sum(weight)), power)) < NOISE.agreement_level:
             return False
     return True

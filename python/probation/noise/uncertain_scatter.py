@@ -54,12 +54,12 @@ class UncertainScatter:
             Columns (N, k) in those coordinates, (m, k).
         """
         drawn = self.ratios[rng.integers(len(self.ratios), size=len(noise))] ** 2 - 1.0
-        found = noise.copy()
+        scattered = noise.copy()
         for columns in self.columns:
             basis, upper = np.linalg.qr(reduced(columns))
             changed = np.einsum("ik,nk,jk->nij", upper, drawn, upper)
             values, vectors = np.linalg.eigh(changed)
             root = np.sqrt(np.maximum(1.0 + values, 0.0)) - 1.0
             along = np.einsum("nji,nj->ni", vectors, noise @ basis)
-            found += np.einsum("nij,nj->ni", vectors, root * along) @ basis.T
-        return found
+            scattered += np.einsum("nij,nj->ni", vectors, root * along) @ basis.T
+        return scattered

@@ -12,7 +12,7 @@ from probation.settings.noise import NOISE
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
-FINE = 0.01
+LOG_LEVEL_TOLERANCE = 0.01
 """Of the level's logarithm: small against its standard error."""
 
 
@@ -47,5 +47,5 @@ def white_level(residual: FloatArray, tangent: FloatArray, propagated: FloatArra
     ends = np.log(least * min(known, max(rms, 1e-300))), np.log(most * max(known, rms))
     from scipy.optimize import minimize_scalar  # noqa: PLC0415 - slow to load; only noise of the strain needs it
 
-    found = minimize_scalar(criterion, bounds=ends, method="bounded", options={"xatol": FINE})
-    return float(np.exp(found.x))
+    minimum = minimize_scalar(criterion, bounds=ends, method="bounded", options={"xatol": LOG_LEVEL_TOLERANCE})
+    return float(np.exp(minimum.x))

@@ -63,7 +63,7 @@ class Whitener:
 
         S is the covariance from record to record; that within a record is white already.
         """
-        found = []
+        by_specimen = []
         for group in specimens_of(self.noises):
             if len(group) < 2:
                 continue
@@ -88,5 +88,5 @@ class Whitener:
                 row, at = row + len(block), at + width
             values, vectors = np.linalg.eigh(shared)
             root = (vectors / np.sqrt(np.maximum(values, LEAST_SHARED))) @ vectors.T
-            found.append((rows, basis, root - np.eye(len(root))))
-        return found
+            by_specimen.append((rows, basis, root - np.eye(len(root))))
+        return by_specimen
