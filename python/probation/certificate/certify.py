@@ -120,11 +120,11 @@ def certify(
         for source, known, record in _pairs(fits, base, step)
     }
     free = {record.id: step(fits.on([record], fits.holding(base, []))) for record in records}
-    own = {record: estimates(found, record, relation=relation, specimens=scatter) for record, found in free.items()}
+    own = {record: estimates(fit, record, relation=relation, specimens=scatter) for record, fit in free.items()}
     modulus, modulus_error = _modulus(base, own, held="unrelaxed_modulus_MPa" in campaign.law.fixed)
     known_modulus = replace(campaign.law, fixed={"unrelaxed_modulus_MPa": modulus})
     alone = {record.id: step(fits.on([record], known_modulus)) for record in records}
-    held = {record: estimates(found, record, modulus_error, relation, scatter) for record, found in alone.items()}
+    held = {record: estimates(fit, record, modulus_error, relation, scatter) for record, fit in alone.items()}
     parameters = _judge(own, held)
     failing = [name for name, parameter in parameters.items() if not parameter.passes]
     kept = [name for name in parameters if name not in failing]
@@ -260,6 +260,8 @@ def _doubts(parameters: Mapping[str, Consistency], campaign: Campaign) -> list[s
         if outside_name(name) not in campaign.law.fixed:
             continue
         held = campaign.law.fixed[outside_name(name)]
-        found = "contradict it" if parameter.contradicts(held) else "agree" if parameter.tested else "say little of it"
-        doubts.append(f"{outside_name(name)} is held at {held:g} by the campaign; the records alone {found}")
+        judgement = (
+            "contradict it" if parameter.contradicts(held) else "agree" if parameter.tested else "say little of it"
+        )
+        doubts.append(f"{outside_name(name)} is held at {held:g} by the campaign; the records alone {judgement}")
     return doubts

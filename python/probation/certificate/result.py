@@ -103,12 +103,12 @@ class Certificate(Result, Stored):
                     "mean": parameter.mean if parameter.passes else None,
                     "by_record": {
                         record: {
-                            "value": found.value,
-                            "se": found.total_se,
-                            "se_noise": found.se_noise,
-                            "se_specimen": found.se_specimen,
+                            "value": estimate.value,
+                            "se": estimate.total_se,
+                            "se_noise": estimate.se_noise,
+                            "se_specimen": estimate.se_specimen,
                         }
-                        for record, found in parameter.by_record.items()
+                        for record, estimate in parameter.by_record.items()
                     },
                 }
                 for name, parameter in self.parameters.items()
@@ -119,7 +119,7 @@ class Certificate(Result, Stored):
                 "parameters": {outside_name(name): p.to_json() for name, p in self.base.parameters.items()},
             },
             "identified_alone": {
-                variant: {record: _fit_json(found, record) for record, found in fits.items()}
+                variant: {record: _fit_json(fit, record) for record, fit in fits.items()}
                 for variant, fits in (
                     ("unrelaxed_modulus_held", self.alone),
                     ("all_free", self.free),
