@@ -63,9 +63,9 @@ class _Noises:
         """With the scatter of the specimens that the residuals have."""
         return tuple(
             noise
-            if each.specimen is None
-            else replace(noise, specimen=pair.spread * each.specimen, specimen_id=pair.record.specimen_id)
-            for pair, noise, each in zip(self.pairs, self.noises, residuals, strict=True)
+            if residual.specimen is None
+            else replace(noise, specimen=pair.spread * residual.specimen, specimen_id=pair.record.specimen_id)
+            for pair, noise, residual in zip(self.pairs, self.noises, residuals, strict=True)
         )
 
 
@@ -84,7 +84,7 @@ def _specimens(campaign: Campaign, reference: Reference, together: Mapping[str, 
     if not any(_differs(campaign.record(name), _specimens_of(reference, others)) for name, others in together.items()):
         return ALIKE
     both = (campaign.specimens, reference.campaign.specimens)
-    return next((each for each in both if each.scatter != "estimate"), Specimens())
+    return next((specimens for specimens in both if specimens.scatter != "estimate"), Specimens())
 
 
 def measured_base(campaign: Campaign, reference: Reference, together: Mapping[str, tuple[str, ...]]) -> BaseFit:
@@ -135,12 +135,12 @@ def measured_base(campaign: Campaign, reference: Reference, together: Mapping[st
     if scatter.any:
         residuals = with_scatter(residuals, columns, scatter)
         noises = noises_of(residuals)
-    found = refit(Problem(model, Whitener(noises)), law.start)
+    fit = refit(Problem(model, Whitener(noises)), law.start)
     return BaseFit(
         law=law,
         views=model.views,
-        refit=found,
-        whitened=Whitened.of(residuals_at(residuals, found), noises),
+        refit=fit,
+        whitened=Whitened.of(residuals_at(residuals, fit), noises),
         specimens=specimens,
         scatter=scatter,
         alike=alike,

@@ -126,7 +126,7 @@ def compare(
     )
     advance(Part(0.9, "measuring what causes close"))
     causes, shrink, curves = causes.shrunk((), skipping, seed=seed)
-    explanations = tuple(_explanation(each, test, fitted=causes.verdict != "no_gap") for each in causes.weighed)
+    explanations = tuple(_explanation(weighed, test, fitted=causes.verdict != "no_gap") for weighed in causes.weighed)
     verdict: Verdict = "nothing_changed" if causes.verdict == "no_gap" else "changed"
     if explanations[0].effects == (UNKNOWN,):
         verdict = "unknown_change"
@@ -138,17 +138,17 @@ def compare(
         pairs=together,
         explanations=explanations,
         answer_set=leading(explanations, calibration.covered),
-        rms_MPa={name: each.before_MPa for name, each in shrink.records.items()},
-        noise_MPa={name: each.noise_MPa for name, each in shrink.records.items()},
+        rms_MPa={name: closure.before_MPa for name, closure in shrink.records.items()},
+        noise_MPa={name: closure.noise_MPa for name, closure in shrink.records.items()},
         curves={
             name: ChangeCurves(
-                each.time,
-                each.true_strain,
-                each.data - each.base,
-                each.noise,
-                None if each.explained is None else each.explained - each.base,
+                record_curves.time,
+                record_curves.true_strain,
+                record_curves.data - record_curves.base,
+                record_curves.noise,
+                None if record_curves.explained is None else record_curves.explained - record_curves.base,
             )
-            for name, each in curves.items()
+            for name, record_curves in curves.items()
         },
         skipped=skipping.entries(causes.found),
         scatter=causes.base.scatter,
@@ -174,12 +174,12 @@ def _changed(base: Hypothesis, test: GapTest) -> tuple[str, ...]:
 
 def _sizes(hypothesis: Hypothesis) -> tuple[ChangedParameter, ...]:
     """The causes' parameters with their intervals, that of a logarithm's exponential."""
-    found = hypothesis.refit
-    x = found.coordinates.of(found.parameters)
-    own = np.where(found.coordinates.log, 0.0, COMPARISON.size_error * x)
+    refit = hypothesis.refit
+    x = refit.coordinates.of(refit.parameters)
+    own = np.where(refit.coordinates.log, 0.0, COMPARISON.size_error * x)
     deviation = np.sqrt(np.maximum(np.diag(hypothesis.evidence.covariance), 0.0) + own**2)
-    everywhere = tuple(view.id for view in found.model.views)
-    first = found.model.base_count
+    everywhere = tuple(view.id for view in refit.model.views)
+    first = refit.model.base_count
     named = [(cause, parameter) for cause in hypothesis.causes for parameter in cause.form.parameters]
     return tuple(
         ChangedParameter(
@@ -194,6 +194,6 @@ def _sizes(hypothesis: Hypothesis) -> tuple[ChangedParameter, ...]:
             ),
         )
         for (cause, parameter), value, at, spread in zip(
-            named, found.parameters[first:].tolist(), x[first:], deviation[first:], strict=True
+            named, refit.parameters[first:].tolist(), x[first:], deviation[first:], strict=True
         )
     )

@@ -83,13 +83,13 @@ def considered(names: Iterable[str] | None = None) -> tuple[Effect, ...]:
     InputError
         For a name that is none of them, suggesting the nearest.
     """
-    rig = [each for each in effects() if each.kind == "rig" and each.name not in LEFT_OUT]
+    rig = [effect for effect in effects() if effect.kind == "rig" and effect.name not in LEFT_OUT]
     smooth = [
-        replace(each, forms=tuple(form for form in each.forms if form.sharp is None))
-        for each in rig
-        if each.forms[0].sharp is None
+        replace(effect, forms=tuple(form for form in effect.forms if form.sharp is None))
+        for effect in rig
+        if effect.forms[0].sharp is None
     ]
-    known = {each.name: each for each in (*map(_of_crosshead, smooth), MATERIAL)}
+    known = {effect.name: effect for effect in (*map(_of_crosshead, smooth), MATERIAL)}
     if names is None:
         return tuple(known.values())
     for name in (chosen := list(names)):

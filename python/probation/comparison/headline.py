@@ -26,7 +26,7 @@ def headline(best: ChangeExplanation, count: int, reference: str) -> str:
     if not best.effects:
         return f"Nothing changed since {reference} {probable}."
     where = "all records" if len(best.records) == count and count > 1 else ", ".join(best.records)
-    sizes = "; ".join(sized(each) for each in best.parameters[:3])
+    sizes = "; ".join(sized(parameter) for parameter in best.parameters[:3])
     return f"Since {reference}: {named(best)} in {where} {probable}" + (f": {sizes}." if sizes else ".")
 
 

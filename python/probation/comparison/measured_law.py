@@ -72,13 +72,13 @@ def reference_branches(view: RecordView, left: FloatArray, sharp: NDArray[np.boo
         Data minus law.
     sharp : ndarray of bool, shape (n,)
     """
-    found = []
+    all_branches = []
     for part in branches(view):
         frame = followed(view.time[part])
         smooth = frame @ (frame.T @ left[part])
         kept = sharp[part].copy()
         kept[: COMPARISON.branch_ends] = kept[-COMPARISON.branch_ends :] = True
-        found.append(
+        all_branches.append(
             Branch(
                 progress(view, part),
                 np.where(kept, left[part], smooth),
@@ -88,7 +88,7 @@ def reference_branches(view: RecordView, left: FloatArray, sharp: NDArray[np.boo
                 view.data[part] - left[part],
             )
         )
-    return tuple(found)
+    return tuple(all_branches)
 
 
 def followed(time: FloatArray) -> FloatArray:
@@ -187,8 +187,8 @@ class MeasuredLaw(WrappedLaw):
         """A stress of the law less its stress at the same points of the references; none beyond their ends; (n,)."""
         references = self.references[view.id]
         total = np.zeros(len(view))
-        for each in references:
-            for part, branch in _paired(view, each):
+        for reference in references:
+            for part, branch in _paired(view, reference):
                 way = _way(view, part, branch)
                 inside = way <= branch.progress[-1] * (1.0 + ROUNDING)
                 total[part] += inside * (stress[part] - np.interp(way, branch.progress, branch.stress))
@@ -198,18 +198,18 @@ class MeasuredLaw(WrappedLaw):
         """What the law left on the references, at the same points of the way; their mean, shape (n,) [MPa]."""
         references = self.references[view.id]
         total = np.zeros(len(view))
-        for each in references:
-            for part, branch in _paired(view, each):
+        for reference in references:
+            for part, branch in _paired(view, reference):
                 total[part] += np.interp(_way(view, part, branch), branch.progress, branch.missing)
         return total / len(references)
 
     def sharp(self, view: RecordView) -> NDArray[np.bool_]:
         """Instants at which a reference has something sharp; shape (n,)."""
-        found = np.zeros(len(view), dtype=bool)
-        for each in self.references[view.id]:
-            for part, branch in _paired(view, each):
-                found[part] |= np.interp(progress(view, part), branch.progress, branch.sharp) > 0.0
-        return found
+        sharp = np.zeros(len(view), dtype=bool)
+        for reference in self.references[view.id]:
+            for part, branch in _paired(view, reference):
+                sharp[part] |= np.interp(progress(view, part), branch.progress, branch.sharp) > 0.0
+        return sharp
 
     def beyond(self, view: RecordView) -> list[FloatArray]:
         """What the law may leave beyond the end of each reference, whose last value is kept there; each (n, k) [MPa].
@@ -217,31 +217,31 @@ class MeasuredLaw(WrappedLaw):
         A parabola as large as what it leaves before the end. Not more: under a large fault of the travel these are the
         samples whose strain the specimen did not reach.
         """
-        found = []
-        for each in self.references[view.id]:
-            columns = np.zeros((len(view), COMPARISON.beyond_reference * len(each)))
-            for index, (part, branch) in enumerate(_paired(view, each)):
+        parabolas = []
+        for reference in self.references[view.id]:
+            columns = np.zeros((len(view), COMPARISON.beyond_reference * len(reference)))
+            for index, (part, branch) in enumerate(_paired(view, reference)):
                 end = max(float(branch.progress[-1]), TINY)
                 far = np.maximum(progress(view, part) / end - 1.0 - ROUNDING, 0.0)[:, None]
                 size = float(np.max(np.abs(branch.missing))) / len(self.references[view.id])
                 own = slice(COMPARISON.beyond_reference * index, COMPARISON.beyond_reference * (index + 1))
                 columns[part, own] = size * (far > 0.0) * far ** np.arange(COMPARISON.beyond_reference)
-            found.append(columns[:, columns.any(axis=0)])
-        return found
+            parabolas.append(columns[:, columns.any(axis=0)])
+        return parabolas
 
     def frames(self, view: RecordView) -> list[FloatArray]:
         """The curves of every reference, carried over in the same way; each of shape (n, k)."""
-        found = []
-        for each in self.references[view.id]:
+        frames = []
+        for reference in self.references[view.id]:
             columns = []
-            for part, branch in _paired(view, each):
+            for part, branch in _paired(view, reference):
                 own = np.zeros((len(view), branch.frame.shape[1]))
                 here = _way(view, part, branch)
                 for index, curve in enumerate(branch.frame.T):
                     own[part, index] = np.interp(here, branch.progress, curve)
                 columns.append(own)
-            found.append(np.hstack(columns))
-        return found
+            frames.append(np.hstack(columns))
+        return frames
 
 
 def _way(view: RecordView, part: slice, branch: Branch) -> FloatArray:

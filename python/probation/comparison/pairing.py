@@ -31,24 +31,24 @@ def pair(
     """
     there = [record.id for record in reference.records]
     here = [record.id for record in campaign.records]
-    found: dict[str, tuple[str, ...]] = {}
+    together: dict[str, tuple[str, ...]] = {}
     if pairs is None:
-        found = {record: (record,) for record in here if record in there}
-        if not found:
+        together = {record: (record,) for record in here if record in there}
+        if not together:
             raise InputError(
                 f"against: found no record of {campaign.name} in {reference.name}, expected one of the same id at "
                 f"least; {', '.join(here)} here and {', '.join(there)} there; say which belong together"
             )
-        return found
+        return together
     for record, others in pairs.items():
         if record not in here:
             raise InputError(f"pairs: found no record {record!r} in {campaign.name}; {suggestion(record, here)}")
-        found[record] = (others,) if isinstance(others, str) else tuple(others)
-        for other in found[record]:
+        together[record] = (others,) if isinstance(others, str) else tuple(others)
+        for other in together[record]:
             if other not in there:
                 raise InputError(f"pairs: found no record {other!r} in {reference.name}; {suggestion(other, there)}")
-        if not found[record]:
+        if not together[record]:
             raise InputError(f"pairs: found no reference for {record!r}, expected one at least")
-    if not found:
+    if not together:
         raise InputError("pairs: found none, expected one at least")
-    return found
+    return together

@@ -65,8 +65,8 @@ class Reference(ShortRepr):
         chosen = at_samples(scheme, DIFFERENTIABLE)
         thinned, _ = thin(campaign)
         whole = replace(thinned, records=tuple(replace(record, role="identify") for record in thinned.records))
-        found = fit(whole, chosen, weighting="plain", method="variable-projection", gap=False)
-        law = DnlrLaw(found.law, held=found.law.parameter_names)
+        identified = fit(whole, chosen, weighting="plain", method="variable-projection", gap=False)
+        law = DnlrLaw(identified.law, held=identified.law.parameter_names)
         views = views_of(whole, scheme=chosen)
         left = [view.data - law.stress(view, law.start) for view in views]
         residuals = [own_residual(view, own) for view, own in zip(views, left, strict=True)]

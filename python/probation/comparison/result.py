@@ -132,9 +132,11 @@ class Comparison(Result, Stored):
                 name: {"references": list(others), "rms_MPa": self.rms_MPa[name], "noise_MPa": self.noise_MPa[name]}
                 for name, others in self.pairs.items()
             },
-            "changes": [asdict(each) for each in self.explanations],
-            "answer_set": [{"effects": each.effects, "records": each.records} for each in self.answer_set],
-            "skipped": [each.to_dict() for each in self.skipped],
+            "changes": [asdict(explanation) for explanation in self.explanations],
+            "answer_set": [
+                {"effects": explanation.effects, "records": explanation.records} for explanation in self.answer_set
+            ],
+            "skipped": [entry.to_dict() for entry in self.skipped],
             "scatter": self.scatter.to_dict(),
             "warnings": list(self.warnings),
             "calibration": self.calibration.to_dict(),
