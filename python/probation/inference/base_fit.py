@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
     from probation.records.specimens import Specimens
 
-ROUNDS, MOST_STEPS, SETTLED = 3, 12, 1e-5
+MOST_TURNS, MOST_REFIT_STEPS, SETTLED = 3, 12, 1e-5
 """Noise and parameters are found in turns, which settle within two: turns, steps of a refit, and the largest relative
 change of a parameter that ends them."""
 
@@ -148,21 +148,21 @@ class BaseFit:
     @cached_property
     def covariance(self) -> FloatArray:
         """Of the material's parameters, by noise with all of its drift and by specimens, shape (n_base, n_base)."""
-        found, whitened = self.refit, self.whitened
-        solver = np.linalg.pinv(found.jacobian)
+        fit, whitened = self.refit, self.whitened
+        solver = np.linalg.pinv(fit.jacobian)
         covariance = solver @ solver.T
         for noise, part in zip(whitened.noises, whitened.slices, strict=True):
             if noise.nuisance_drift is not None:
                 moved = solver[:, part] @ noise.whiten(noise.nuisance_drift)
                 covariance += moved @ moved.T
-        slopes = found.coordinates.slopes(found.parameters)
+        slopes = fit.coordinates.slopes(fit.parameters)
         return np.asarray(covariance * np.outer(slopes, slopes))
 
     @cached_property
     def covariance_of_tested(self) -> FloatArray:
         """The same for the mean of the specimens that were tested, by noise alone, shape (n_base, n_base)."""
-        found = self.refit
-        solver = np.linalg.pinv(found.jacobian) * found.coordinates.slopes(found.parameters)[:, None]
+        fit = self.refit
+        solver = np.linalg.pinv(fit.jacobian) * fit.coordinates.slopes(fit.parameters)[:, None]
         covariance = self.covariance.copy()
         for columns in self.of_specimens():
             moved = solver @ columns
@@ -287,19 +287,19 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
         ]
 
     residuals = residuals_of(model, raw, jacobian)
-    found, noises, residuals = _settled(model, parameters, residuals)
+    fit, noises, residuals = _settled(model, parameters, residuals)
     alike = Whitened.of(residuals, noises)
-    columns = [] if specimens.alike else deviation_columns(model, found.parameters)
+    columns = [] if specimens.alike else deviation_columns(model, fit.parameters)
     scatter = scatter_of(specimens, law, residuals, noises, columns)
     if scatter.any:
-        plain, scattered = found, with_scatter(residuals, columns, scatter)
-        found, noises, residuals = _settled(model, plain.parameters, scattered)
-        held = specimens_hold_the_gap(model, alike.noises, plain.parameters, found.parameters)
-        if held and _moved_far(plain, found, scattered, scatter):
+        plain, scattered = fit, with_scatter(residuals, columns, scatter)
+        fit, noises, residuals = _settled(model, plain.parameters, scattered)
+        held = specimens_hold_the_gap(model, alike.noises, plain.parameters, fit.parameters)
+        if held and _moved_far(plain, fit, scattered, scatter):
             noises = fitted_noises(scattered)
-            found = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
-            residuals = residuals_at(scattered, found)
-    parameters = found.parameters
+            fit = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
+            residuals = residuals_at(scattered, fit)
+    parameters = fit.parameters
     # Effects that hand the force back to the strain must not be handed its noise.
     quiet = CampaignModel(law, views).quietened(parameters).views
     fitted = CampaignModel(law, [view for view in quiet if view.role == "identify"])
@@ -313,7 +313,7 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
     return BaseFit(
         law=law,
         views=quiet,
-        refit=replace(found, problem=replace(found.problem, model=fitted)),
+        refit=replace(fit, problem=replace(fit.problem, model=fitted)),
         whitened=Whitened.of(residuals, noises),
         specimens=specimens,
         scatter=scatter,
@@ -344,18 +344,20 @@ def specimens_hold_the_gap(
     return left > NOISE.most_left_to_specimens * least
 
 
-def _moved_far(plain: Refit, found: Refit, scattered: Sequence[RecordResidual], scatter: Scatter) -> bool:
+def _moved_far(plain: Refit, refitted: Refit, scattered: Sequence[RecordResidual], scatter: Scatter) -> bool:
     """Whether the parameters moved by more than specimens that differ explain, once these were let differ.
 
     They explain the scatter itself, and how far it moves an estimate that does not know of it: a few per cent of E_u
     may be half of G where the network is soft. Without it that estimate is the one that is far off.
     """
     whitener, solver = plain.problem.whitener, np.linalg.pinv(plain.jacobian)
-    noises = [replace(noise, specimen=each.specimen) for noise, each in zip(whitener.noises, scattered, strict=True)]
+    noises = [
+        replace(noise, specimen=record.specimen) for noise, record in zip(whitener.noises, scattered, strict=True)
+    ]
     moved = np.sqrt(sum(np.sum((solver @ columns) ** 2, axis=1) for columns in _white_specimens(noises, whitener)))
     own = max(scatter.deviations) * np.abs(plain.parameters)
     size = np.hypot(own, moved * plain.coordinates.slopes(plain.parameters))
-    return bool((np.abs(found.parameters - plain.parameters) > NOISE.farthest_move * size).any())
+    return bool((np.abs(refitted.parameters - plain.parameters) > NOISE.farthest_move * size).any())
 
 
 def _white_specimens(noises: Sequence[NoiseModel], whitener: Whitener) -> list[FloatArray]:
@@ -366,15 +368,15 @@ def _settled(
     model: CampaignModel, parameters: FloatArray, residuals: Sequence[RecordResidual]
 ) -> tuple[Refit, tuple[NoiseModel, ...], list[RecordResidual]]:
     """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there."""
-    for _ in range(ROUNDS):
+    for _ in range(MOST_TURNS):
         noises = fitted_noises(residuals)
-        found = refit(Problem(model, Whitener(noises)), parameters, most_steps=MOST_STEPS)
-        moved = np.abs(found.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
-        parameters = found.parameters
-        residuals = residuals_at(residuals, found)
+        fit = refit(Problem(model, Whitener(noises)), parameters, most_steps=MOST_REFIT_STEPS)
+        moved = np.abs(fit.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
+        parameters = fit.parameters
+        residuals = residuals_at(residuals, fit)
         if moved.size == 0 or float(moved.max()) < SETTLED:
             break
-    return found, noises, list(residuals)
+    return fit, noises, list(residuals)
 
 
 def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
@@ -394,9 +396,9 @@ def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
         base = replace(base, scatter=scatter)
     noises = base.noises_of(records)
     # With the scatter taken around an explanation the base law alone might run far away: it stays.
-    steps = 0 if base.scatter.any else MOST_STEPS
-    found = refit(replace(base.problem, whitener=Whitener(noises)), base.parameters, most_steps=steps)
-    return replace(base, refit=found, whitened=Whitened.of(residuals_at(records, found), noises))
+    steps = 0 if base.scatter.any else MOST_REFIT_STEPS
+    fit = refit(replace(base.problem, whitener=Whitener(noises)), base.parameters, most_steps=steps)
+    return replace(base, refit=fit, whitened=Whitened.of(residuals_at(records, fit), noises))
 
 
 def residuals_at(residuals: Sequence[RecordResidual], found: Refit) -> list[RecordResidual]:
@@ -404,5 +406,6 @@ def residuals_at(residuals: Sequence[RecordResidual], found: Refit) -> list[Reco
     raw, jacobian = found.model.residual_and_jacobian(found.parameters)
     parts = [part for _, part in found.model.parts]
     return [
-        replace(each, residual=raw[part], tangent=jacobian[part]) for each, part in zip(residuals, parts, strict=True)
+        replace(record, residual=raw[part], tangent=jacobian[part])
+        for record, part in zip(residuals, parts, strict=True)
     ]

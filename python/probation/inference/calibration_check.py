@@ -98,7 +98,7 @@ class CalibrationCheck:
         """One sentence where the campaign lies outside, else none."""
         if self.inside:
             return ()
-        low, high = (percentage(each) for each in CALIBRATED.right_elsewhere)
+        low, high = (percentage(part) for part in CALIBRATED.right_elsewhere)
         return (
             f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): they are too sure where "
             f"forms are others; in laboratories of others the leading explanation was right in {low} to {high} % of "
@@ -162,13 +162,13 @@ def check_calibration(base: BaseFit) -> CalibrationCheck:
     base : BaseFit
         On the records that causes are fitted to.
     """
-    found, why = extent_of(base), []
+    extent, why = extent_of(base), []
     compared = (
-        ("records", (found.records, found.records), CALIBRATED.records, "{:.0f}".format),
-        ("samples a record", found.samples, CALIBRATED.samples, "{:.0f}".format),
-        ("a noise over the largest stress", found.noise, CALIBRATED.noise, "{:.2g}".format),
-        ("a strain noise", found.strain_noise, CALIBRATED.strain_noise, "{:.2g}".format),
-        ("a misfit over the noise", (found.gap, found.gap), CALIBRATED.gap, _two_digits),
+        ("records", (extent.records, extent.records), CALIBRATED.records, "{:.0f}".format),
+        ("samples a record", extent.samples, CALIBRATED.samples, "{:.0f}".format),
+        ("a noise over the largest stress", extent.noise, CALIBRATED.noise, "{:.2g}".format),
+        ("a strain noise", extent.strain_noise, CALIBRATED.strain_noise, "{:.2g}".format),
+        ("a misfit over the noise", (extent.gap, extent.gap), CALIBRATED.gap, _two_digits),
     )
     for name, (low, high), (least, most), form in compared:
         if low < least or high > most:

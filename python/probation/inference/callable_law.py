@@ -98,8 +98,8 @@ class CallableLaw:
         InputError
             If the function gives something else.
         """
-        found = self.function(view.time, view.true_strain, parameters, modification or Modification())
-        return as_samples(found, "function(time, true_strain, …)", len(view))
+        stress = self.function(view.time, view.true_strain, parameters, modification or Modification())
+        return as_samples(stress, "function(time, true_strain, …)", len(view))
 
     def sensitivity(
         self, view: RecordView, parameters: FloatArray, modification: Modification | None = None

@@ -94,7 +94,7 @@ class WhitenedColumns:
         left = without(residual, span)
         along = self.matrix.T @ left
         square = np.sum(self.matrix**2, axis=0) - np.sum((span.T @ self.matrix) ** 2, axis=0)
-        found = []
+        candidates = []
         for column, slope, size in zip(self.columns, along.tolist(), square.tolist(), strict=True):
             amplitude = column.cause.form.amplitude
             wanted = -slope / max(size + amplitude.scale**-2.0, 1e-300)
@@ -105,8 +105,8 @@ class WhitenedColumns:
             else:
                 largest = SEARCH.largest_start * amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
                 start = float(np.clip(wanted, -largest, largest))
-            found.append(Candidate(column.cause, (start, *column.values[1:]), gain))
-        return sorted(found, key=lambda each: -each.gain)
+            candidates.append(Candidate(column.cause, (start, *column.values[1:]), gain))
+        return sorted(candidates, key=lambda candidate: -candidate.gain)
 
 
 def cause_key(cause: Cause) -> Key:

@@ -147,7 +147,7 @@ class Gap:
     @property
     def held_out_p_value(self) -> float:
         """Of all predicted records together, by Bonferroni; 1 where there are none."""
-        return min((len(self.held_out) * each.p_value for each in self.held_out.values()), default=1.0)
+        return min((len(self.held_out) * gap.p_value for gap in self.held_out.values()), default=1.0)
 
     @property
     def in_held_out(self) -> bool:
@@ -172,11 +172,11 @@ class Gap:
 
         Where there is no gap it is that of a fitted record, and what a gap might have that was not seen.
         """
-        return max(self._looked_at, key=lambda each: each.relative)
+        return max(self._looked_at, key=lambda size: size.relative)
 
     def matters(self, tolerance: float = DETECTION.tolerance) -> bool:
         """Whether the gap may be larger than so much of a record's largest stress, in any record that holds it."""
-        return self.exists and max(each.relative_interval[1] for each in self._looked_at) >= tolerance
+        return self.exists and max(size.relative_interval[1] for size in self._looked_at) >= tolerance
 
     @property
     def _looked_at(self) -> tuple[GapSize, ...]:
@@ -195,7 +195,7 @@ class Gap:
             "size": self.size.to_dict(),
             "scatter": self.scatter.to_dict(),
             "if_alike": self.if_alike,
-            "held_out_gap": {name: each.to_dict() for name, each in self.held_out.items()},
+            "held_out_gap": {name: gap.to_dict() for name, gap in self.held_out.items()},
         }
 
 
@@ -243,8 +243,10 @@ def find_gap(
         signals = screen(model, base.parameters, effects, threads=threads, only=lambda form: not form.variant)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
-        found = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise), calibration)
-        held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value, found.level)
+        held_out_test = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise), calibration)
+        held_out[record.name] = HeldOutGap(
+            _rms(error), _rms(noise.deviation), held_out_test.p_value, held_out_test.level
+        )
     return Gap(test, held_out, sizes, base.scatter, alike)
 
 
@@ -317,10 +319,10 @@ def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseM
     """
     spread, directions = np.linalg.eigh(base.covariance)
     root = directions * np.sqrt(np.maximum(spread, 0.0))
-    records = tuple(replace(each, tangent=np.zeros((len(each), root.shape[0]))) for each in base.held_out)
+    records = tuple(replace(record, tangent=np.zeros((len(record), root.shape[0]))) for record in base.held_out)
     noises = tuple(
-        replace(noise, propagated=np.hstack([noise.propagated, each.tangent @ root]))
-        for each, noise in zip(base.held_out, base.held_out_noises, strict=True)
+        replace(noise, propagated=np.hstack([noise.propagated, record.tangent @ root]))
+        for record, noise in zip(base.held_out, base.held_out_noises, strict=True)
     )
     return records, noises
 

@@ -51,7 +51,7 @@ class Linearised:
         inside = jacobian[:, free]
         # A flat prior ends at its bounds, or after a period: a wide normal one around x, cut there, stands in for it.
         below, above = x - coordinates.bounds.lower, coordinates.bounds.upper - x
-        period = np.append(np.zeros(model.base_count), [each.period for each in model.effect_parameters])
+        period = np.append(np.zeros(model.base_count), [parameter.period for parameter in model.effect_parameters])
         below, above = (
             np.where(effects, np.where(period > 0.0, 0.5 * period, room), np.inf) for room in (below, above)
         )

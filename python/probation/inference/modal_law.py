@@ -131,7 +131,7 @@ class DnlrLaw:
         made = self._modified(view, parameters, modification)
         directions = parameter_directions(made, modification, view.history)
         if not self._free.all():
-            directions = [each for each, free in zip(directions, self._free, strict=True) if free]
+            directions = [direction for direction, free in zip(directions, self._free, strict=True) if free]
         stress, tangent = np.empty(len(view)), np.empty((len(view), len(directions)))
         try:
             solver_of(view).tangent(made.law, made.change, directions, stress, tangent)

@@ -86,13 +86,13 @@ class CampaignModel:
         self.views: Final = tuple(views)
         self.causes: Final = tuple(causes)
         ids = [view.id for view in self.views]
-        for each in self.causes:
-            for record in each.records or ():
+        for cause in self.causes:
+            for record in cause.records or ():
                 if record not in ids:
-                    raise InputError(f"{each.effect.name}: found no record {record!r}; {suggestion(record, ids)}")
-            if missing := self.missing_capabilities(each):
-                raise InputError(f"{each.effect.name}: the law does not understand {', '.join(sorted(missing))}")
-        names = (*law.parameter_names, *(name for each in self.causes for name in each.parameter_names))
+                    raise InputError(f"{cause.effect.name}: found no record {record!r}; {suggestion(record, ids)}")
+            if missing := self.missing_capabilities(cause):
+                raise InputError(f"{cause.effect.name}: the law does not understand {', '.join(sorted(missing))}")
+        names = (*law.parameter_names, *(name for own in self.causes for name in own.parameter_names))
         if len(set(names)) < len(names):
             raise InputError("a cause is given twice for the same records")
         self.parameter_names: Final = tuple(names)
@@ -113,7 +113,7 @@ class CampaignModel:
     @property
     def effect_parameters(self) -> tuple[EffectParameter, ...]:
         """What is known of the causes' parameters, in the order of `parameter_names` behind the law's."""
-        return tuple(parameter for each in self.causes for parameter in each.form.parameters)
+        return tuple(parameter for cause in self.causes for parameter in cause.form.parameters)
 
     @property
     def bounds(self) -> tuple[FloatArray, FloatArray]:
@@ -128,7 +128,7 @@ class CampaignModel:
     @property
     def start(self) -> FloatArray:
         """The law's start; causes absent (amplitude 0), with their first shapes; shape (n_parameters,)."""
-        absent = [value for each in self.causes for value in (0.0, *each.form.typical[1:])]
+        absent = [value for cause in self.causes for value in (0.0, *cause.form.typical[1:])]
         return np.append(self.law.start, absent)
 
     def parameters(self, base: FloatArray, *values: Sequence[float]) -> FloatArray:
@@ -140,9 +140,9 @@ class CampaignModel:
             For too many or too few.
         """
         if len(values) != len(self.causes) or len(base) != self.base_count:
-            expected = [", ".join(self.law.parameter_names), *(each.label for each in self.causes)]
+            expected = [", ".join(self.law.parameter_names), *(cause.label for cause in self.causes)]
             raise InputError(f"found {1 + len(values)} groups of values, expected {'; '.join(expected)}")
-        checked = [each.checked(given) for each, given in zip(self.causes, values, strict=True)]
+        checked = [cause.checked(given) for cause, given in zip(self.causes, values, strict=True)]
         return np.concatenate([base, *checked])
 
     def split(self, parameters: FloatArray) -> tuple[FloatArray, CauseValues]:
@@ -153,9 +153,9 @@ class CampaignModel:
                 + ", ".join(self.parameter_names)
             )
         first, parts = self.base_count, []
-        for each in self.causes:
-            last = first + len(each.form.parameters)
-            parts.append((each, tuple(float(value) for value in parameters[first:last])))
+        for cause in self.causes:
+            last = first + len(cause.form.parameters)
+            parts.append((cause, tuple(float(value) for value in parameters[first:last])))
             first = last
         return np.asarray(parameters[: self.base_count], dtype=np.float64), tuple(parts)
 
@@ -179,7 +179,7 @@ class CampaignModel:
     @property
     def amplitudes(self) -> tuple[int, ...]:
         """Where the causes' amplitudes stand among the parameters."""
-        sizes = [len(each.form.parameters) for each in self.causes]
+        sizes = [len(cause.form.parameters) for cause in self.causes]
         return tuple(int(place) for place in self.base_count + np.cumsum([0, *sizes])[: len(sizes)])
 
     def with_causes(self, causes: Iterable[Cause]) -> CampaignModel:
@@ -190,7 +190,7 @@ class CampaignModel:
         """The same law and causes on other records; causes confined to records that are left out go with them."""
         views = tuple(views)
         ids = {view.id for view in views}
-        kept = [each for each in self.causes if each.records is None or ids.issuperset(each.records)]
+        kept = [cause for cause in self.causes if cause.records is None or ids.issuperset(cause.records)]
         return CampaignModel(self.law, views, kept)
 
     def quietened(self, parameters: FloatArray) -> CampaignModel:
@@ -220,7 +220,7 @@ class CampaignModel:
 
     def clashes(self, cause: Cause) -> bool:
         """Whether a cause changes what a law can change once only, and one of the model's does."""
-        taken = frozenset[str]().union(*(self._once(each) for each in self.causes))
+        taken = frozenset[str]().union(*(self._once(own) for own in self.causes))
         return bool(self._once(cause) & taken)
 
     def _once(self, cause: Cause) -> frozenset[str]:
@@ -236,7 +236,7 @@ class CampaignModel:
         """
         base, causes = self.split(parameters)
         law = -0.5 * float(np.sum((base / self.base_scales) ** 2))
-        return law + sum(each.log_prior(values) for each, values in causes)
+        return law + sum(cause.log_prior(values) for cause, values in causes)
 
     def predict(self, parameters: FloatArray) -> dict[str, FloatArray]:
         """Recorded true stress as the model has it, by record; each of shape (n_samples,) [MPa]."""
@@ -269,9 +269,9 @@ class CampaignModel:
             assert specimen.sensitivity is not None
             jacobian[rows, : self.base_count] = view.sampled(_recorded_sensitivity(view, here, specimen))
             column = self.base_count
-            for index, (each, values) in enumerate(causes):
+            for index, (cause, values) in enumerate(causes):
                 for position in range(len(values)):
-                    if each.touches(view.id):
+                    if cause.touches(view.id):
                         jacobian[rows, column + position] = view.sampled(
                             self._slope(view, base, causes, index, position, specimen, stress)
                         )
@@ -299,7 +299,7 @@ class CampaignModel:
         Where the force is the model's own, to `settled` of the largest (`own_force.ROUGHLY`): sought from what that of
         a model `near` to this one would become, or else from the recorded one.
         """
-        if not any(each.form.own_force for each, _ in causes):
+        if not any(cause.form.own_force for cause, _ in causes):
             return self._driven(view, base, causes, sensitivity)
 
         def under(stress: FloatArray, *, sensitivity: bool = False) -> Specimen:
@@ -309,15 +309,15 @@ class CampaignModel:
         if near is not None:  # a small change is lost within `settled` of the force, unless its first order is taken
             start = near.moved(under(near.stress).stress)
         frame = self._frame(view.quietened(start), base, causes)
-        found = OwnForce(lambda stress: under(stress).stress, start, frame.answer, settled)
+        force = OwnForce(lambda stress: under(stress).stress, start, frame.answer, settled)
         if not sensitivity:
-            return Specimen(found.stress, None, found)
-        slopes = under(found.stress, sensitivity=True).sensitivity
+            return Specimen(force.stress, None, force)
+        slopes = under(force.stress, sensitivity=True).sensitivity
         assert slopes is not None
         answers = np.empty_like(slopes)  # of no column, where all of the law is held
         for column, slope in enumerate(slopes.T):
-            answers[:, column] = found.answer(slope, SLOPE)
-        return Specimen(found.stress, answers, found)
+            answers[:, column] = force.answer(slope, SLOPE)
+        return Specimen(force.stress, answers, force)
 
     def _driven(self, view: RecordView, base: FloatArray, causes: CauseValues, sensitivity: bool) -> Specimen:
         """The same with the force that the view has."""
@@ -439,11 +439,11 @@ def _difference(
 def _seen(view: RecordView, causes: CauseValues) -> tuple[RecordView, FloatArray | None]:
     """The record as the specimen saw it, and the true strain by which its stress was converted too far (n,) [-]."""
     seen, conversion = view, None
-    for each, values in causes:
-        if each.form.driving_strain is None:
+    for cause, values in causes:
+        if cause.form.driving_strain is None:
             continue
-        strain = each.form.driving_strain(seen, values)
-        if each.form.converts:
+        strain = cause.form.driving_strain(seen, values)
+        if cause.form.converts:
             conversion = (0.0 if conversion is None else conversion) + seen.true_strain - strain
         seen = seen.driven(strain)
     return seen, conversion
@@ -452,21 +452,21 @@ def _seen(view: RecordView, causes: CauseValues) -> tuple[RecordView, FloatArray
 def _modification(seen: RecordView, causes: CauseValues) -> Modification | None:
     """What the causes change in the law."""
     modification = None
-    for each, values in causes:
-        if each.form.modification is not None and (change := each.form.modification(seen, values)) is not None:
+    for cause, values in causes:
+        if cause.form.modification is not None and (change := cause.form.modification(seen, values)) is not None:
             modification = change if modification is None else modification.and_(change)
     return modification
 
 
 def _touching(causes: CauseValues, view: RecordView) -> CauseValues:
-    return tuple(each for each in causes if each[0].touches(view.id))
+    return tuple(pair for pair in causes if pair[0].touches(view.id))
 
 
 def _as_recorded(view: RecordView, causes: CauseValues, stress: FloatArray) -> FloatArray:
     """What the force channel made of the stress, shape (n,) [MPa]."""
-    for each, values in causes:
-        if each.form.recorded_stress is not None:
-            stress = each.form.recorded_stress(view, values, stress)
+    for cause, values in causes:
+        if cause.form.recorded_stress is not None:
+            stress = cause.form.recorded_stress(view, values, stress)
     return stress
 
 
@@ -474,7 +474,7 @@ def _recorded_sensitivity(view: RecordView, causes: CauseValues, specimen: Speci
     """Sensitivities through the force channel, shape (n, n_base)."""
     slopes = specimen.sensitivity
     assert slopes is not None
-    if all(each.form.recorded_stress is None for each, _ in causes):
+    if all(cause.form.recorded_stress is None for cause, _ in causes):
         return slopes
     recorded = np.empty_like(slopes)
     for k, slope in enumerate(slopes.T):

@@ -55,8 +55,8 @@ class MovingNoise:
         delta are the likeliest strain errors of a fit residual (n_samples,) [MPa].
         """
         whitener = self.at(law)
-        found = np.zeros((len(residual), len(wanted)))
+        slopes = np.zeros((len(residual), len(wanted)))
         for own, noise, rows in zip(self.strain, whitener.noises, whitener.slices, strict=True):
             if own is not None:
-                found[rows] = own.slopes(law, noise.strain_errors(residual[rows]), wanted)
-        return found
+                slopes[rows] = own.slopes(law, noise.strain_errors(residual[rows]), wanted)
+        return slopes

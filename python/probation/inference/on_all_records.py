@@ -63,7 +63,7 @@ def on_all_records(found: Refit, views: Sequence[RecordView]) -> OnAllRecords:
     for own in _in_each(causes, fitted) if others and len(fitted) > 1 else ():
         usual = Counter(cause.form.name for cause in own).most_common(1)[0][0]
         alike = [cause for cause in own if cause.form.name == usual]
-        if any(_of_its_record(each) for each in alike[0].form.parameters):
+        if any(_of_its_record(parameter) for parameter in alike[0].form.parameters):
             silent = True
             continue
         causes.append(replace(alike[0], records=others))
@@ -89,12 +89,12 @@ def _in_each(causes: Iterable[Cause], fitted: set[str]) -> list[list[Cause]]:
     return [own for own in apart.values() if {record for cause in own for record in cause.records or ()} == fitted]
 
 
-def _mean_of(alike: Sequence[Cause], found: Refit) -> FloatArray:
+def _mean_of(alike: Sequence[Cause], fit: Refit) -> FloatArray:
     """The mean of the parameters of causes of one form, over those of a refit; shape (n_of_the_form, n_parameters)."""
     count = len(alike[0].form.parameters)
-    rows = np.zeros((count, len(found.parameters)))
-    first = found.model.base_count
-    for cause in found.model.causes:
+    rows = np.zeros((count, len(fit.parameters)))
+    first = fit.model.base_count
+    for cause in fit.model.causes:
         if cause in alike:
             rows[:, first : first + count] += np.eye(count) / len(alike)
         first += len(cause.form.parameters)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
 
-MOST_STEPS = 12
+MOST_NEWTON_STEPS = 12
 """Newton's steps; from a force that is recorded it takes two to four."""
 
 MOST_DIRECTIONS = 24
@@ -90,7 +90,7 @@ class OwnForce:
         self._next = stress(start)
         left = self._next - start
         norms, part_left = [float(np.linalg.norm(left))], ROUGHEST
-        for _ in range(MOST_STEPS):
+        for _ in range(MOST_NEWTON_STEPS):
             if np.max(np.abs(left)) <= settled * self._size:
                 return
             stuck = len(norms) > PATIENCE and norms[-1] > 0.5 * norms[-1 - PATIENCE]
@@ -121,7 +121,7 @@ class OwnForce:
         size = float(np.linalg.norm(change))
         if size == 0.0:
             return change
-        found, rest = np.zeros(len(change)), change
+        solution, rest = np.zeros(len(change)), change
         directions, products = np.empty((2, MOST_DIRECTIONS, len(change)))
         for k in range(MOST_DIRECTIONS):
             direction = self._about(rest)
@@ -133,10 +133,10 @@ class OwnForce:
             length = max(float(np.linalg.norm(product)), 1e-300)
             directions[k], products[k] = direction / length, product / length
             part = float(products[k] @ rest)
-            found, rest = found + part * directions[k], rest - part * products[k]
+            solution, rest = solution + part * directions[k], rest - part * products[k]
             if np.linalg.norm(rest) <= left * size:
                 break
-        return found
+        return solution
 
     def _without_feedback(self, direction: FloatArray) -> FloatArray:
         """(I - dG/dy) along a direction."""

@@ -83,7 +83,7 @@ class Problem:
     def with_noises(self, noises: Iterable[NoiseModel], strain: Sequence[StrainNoise | None] = ()) -> Problem:
         """The same with other noise of every record's stress; and of its strain, where that matters."""
         whitener = Whitener(tuple(noises))
-        moving = MovingNoise(whitener, tuple(strain)) if any(each is not None for each in strain) else None
+        moving = MovingNoise(whitener, tuple(strain)) if any(noise is not None for noise in strain) else None
         return replace(self, whitener=whitener, moving=moving)
 
     def reweighed(self, parameters: FloatArray) -> Problem:

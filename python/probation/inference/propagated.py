@@ -65,9 +65,9 @@ def stress_by_errors(
         return tangents_along(solver, law.law_at(parameters), strain, rate)
     still = law.stress(view, parameters)
     instants, samples = view.time, view.sampled(view.time)
-    found = np.empty_like(strain)
+    stress = np.empty_like(strain)
     for index, column in enumerate(strain.T):
         size = max(float(np.max(np.abs(column))), 1e-300)
         moved = view.true_strain + STRAIN_STEP / size * np.interp(instants, samples, column)
-        found[:, index] = view.sampled(law.stress(view.driven(moved), parameters) - still) * (size / STRAIN_STEP)
-    return found
+        stress[:, index] = view.sampled(law.stress(view.driven(moved), parameters) - still) * (size / STRAIN_STEP)
+    return stress

@@ -122,9 +122,9 @@ class Coordinates:
         known, base = model.effect_parameters, model.base_count
         start = np.abs(model.law.start)
         size = np.append(np.where(start > 0.0, start, 1.0), np.ones(len(known)))
-        log = np.array([False] * base + [each.log for each in known], dtype=bool)
-        centre = np.append(np.zeros(base), [each.to_search(each.centre) for each in known])
-        scale = np.append(model.base_scales / size[:base], [each.scale for each in known])
+        log = np.array([False] * base + [parameter.log for parameter in known], dtype=bool)
+        centre = np.append(np.zeros(base), [parameter.to_search(parameter.centre) for parameter in known])
+        scale = np.append(model.base_scales / size[:base], [parameter.scale for parameter in known])
         return cls(size, log, model.bounds, NormalPrior(centre, 1.0 / scale**2))
 
     @cached_property
@@ -183,7 +183,7 @@ def refit(
         if start.problem.model is problem.model and same_noise:
             tangent = start.residual, start.jacobian
         start = start.parameters
-    found = minimise(
+    minimum = minimise(
         SearchResidual(problem, coordinates),
         coordinates.of(np.asarray(start, dtype=np.float64)),
         tangent=tangent,
@@ -194,8 +194,8 @@ def refit(
         damping=FIRST_DAMPING,
         most_steps=most_steps,
     )
-    parameters = coordinates.parameters(found.x)
-    return Refit(problem, parameters, found.residual, found.jacobian, coordinates, found.steps)
+    parameters = coordinates.parameters(minimum.x)
+    return Refit(problem, parameters, minimum.residual, minimum.jacobian, coordinates, minimum.steps)
 
 
 @dataclass(frozen=True, eq=False)

@@ -55,21 +55,21 @@ def with_residual_noise(problem: Problem, parameters: FloatArray, strain: Sequen
     smooth = [index for index in smooth if len(residuals[index]) >= NOISE.fewest_for_correlation]
     estimated = dict(zip(smooth, estimate_noise([residuals[index] for index in smooth]), strict=True))
     noises, strains = [], list(strain)
-    for index, (each, own) in enumerate(zip(residuals, strain, strict=True)):
+    for index, (record, own) in enumerate(zip(residuals, strain, strict=True)):
         known = problem.views[index].stress_noise
         if own is not None and own.strain is None:
-            left = _white(each, known).with_propagated(each.propagated).whiten(each.residual)
-            factor = float(np.sqrt(left @ left / max(len(left) - each.tangent.shape[1], 1)))
-            noises.append(_white(each, factor * known))
+            left = _white(record, known).with_propagated(record.propagated).whiten(record.residual)
+            factor = float(np.sqrt(left @ left / max(len(left) - record.tangent.shape[1], 1)))
+            noises.append(_white(record, factor * known))
             strains[index] = replace(own, deviation=factor * own.deviation)
             continue
         model = estimated.get(index)
-        if model is None or not is_white(model.whiten(without_outliers(each.residual, model.outliers))):
-            level = white_level(each.residual, each.tangent, each.propagated, known)
-            model = _white(each, max(level, each.given_noise or 0.0))
+        if model is None or not is_white(model.whiten(without_outliers(record.residual, model.outliers))):
+            level = white_level(record.residual, record.tangent, record.propagated, known)
+            model = _white(record, max(level, record.given_noise or 0.0))
         noises.append(model.with_propagated(None))
     return problem.with_noises(noises, strains)
 
 
-def _white(each: RecordResidual, level: float) -> NoiseModel:
-    return NoiseModel.stationary(each.name, Arma(innovation=max(level, 1e-12)), len(each))
+def _white(record: RecordResidual, level: float) -> NoiseModel:
+    return NoiseModel.stationary(record.name, Arma(innovation=max(level, 1e-12)), len(record))

@@ -104,25 +104,25 @@ def screen(
     def answers(view: RecordView) -> dict[_Key, FloatArray | Exception]:
         """The slopes of one record; a form at one start is worked out once, wherever it is placed."""
         specimen, still = model.at_rest(view, base, active)
-        found: dict[_Key, FloatArray | Exception] = {}
+        slopes: dict[_Key, FloatArray | Exception] = {}
         for cause, values, views in wanted:
-            if view not in views or _key(cause, values) in found:
+            if view not in views or _key(cause, values) in slopes:
                 continue
             form = cause.form
             size = values[0] if form.threshold else form.amplitude.step(0.0)
             try:
                 stress = model.with_one_more(view, base, active, cause, (size, *values[1:]), specimen)
-                found[_key(cause, values)] = view.sampled((stress - still) / size)
+                slopes[_key(cause, values)] = view.sampled((stress - still) / size)
             except UNSOLVABLE as error:
-                found[_key(cause, values)] = error
-        return found
+                slopes[_key(cause, values)] = error
+        return slopes
 
-    found = dict(zip(model.views, in_parallel(answers, model.views, threads), strict=True))
+    slopes_of = dict(zip(model.views, in_parallel(answers, model.views, threads), strict=True))
     columns = []
     for cause, values, views in wanted:
         parts: list[FloatArray] = []
         for view in views:
-            part = found[view][_key(cause, values)]
+            part = slopes_of[view][_key(cause, values)]
             if isinstance(part, Exception):
                 failed.append((cause, part))
                 break
@@ -145,12 +145,12 @@ def _placed(
 ) -> list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]]:
     """Where a form may sit: records (None for all), and their views."""
     possible = effect.placements(form)
-    found: list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]] = []
+    placed: list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]] = []
     if "all" in possible and "all" in placements:
-        found.append((None, model.views))
+        placed.append((None, model.views))
     if "one" in possible and "one" in placements and (len(model.views) > 1 or "all" not in possible):
-        found += [((view.id,), (view,)) for view in model.views]
-    return found
+        placed += [((view.id,), (view,)) for view in model.views]
+    return placed
 
 
 def _starts(
@@ -159,4 +159,4 @@ def _starts(
     """Values where the columns are taken: amplitude 0 (or a threshold's own), and the nonlinear parameters."""
     residuals = None if residual is None else [residual[model.rows(view.id)] for view in views]
     starts = form.nonlinear_starts(views, residuals)
-    return starts if form.threshold else [(0.0, *each) for each in starts]
+    return starts if form.threshold else [(0.0, *start) for start in starts]

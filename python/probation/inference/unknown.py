@@ -79,15 +79,15 @@ def _integrated(problem: Linearised, discrepancy: Discrepancy, pattern: FloatArr
     return float(logsumexp(scores)) - float(np.log(len(SIZES)))
 
 
-def _along(found: Refit, discrepancy: Discrepancy, forms: FloatArray | None, columns: FloatArray) -> float:
+def _along(fit: Refit, discrepancy: Discrepancy, forms: FloatArray | None, columns: FloatArray) -> float:
     """Mean over the sizes of a discrepancy along given columns, of independent amplitudes."""
     count = columns.shape[1]
     if count == 0:
         return -np.inf
     # What the law's own parameters, of flat priors, can follow is free; left in, it would cost digits.
-    columns = without(columns, span_of(found.jacobian[:, : found.model.base_count]))
+    columns = without(columns, span_of(fit.jacobian[:, : fit.model.base_count]))
     together = columns if forms is None else np.hstack([forms, columns])
-    jointly = _around_the_optimum(Linearised.of(found, discrepancy, together))
+    jointly = _around_the_optimum(Linearised.of(fit, discrepancy, together))
     nothing = np.zeros(len(jointly.waves_of_residual))
     scores = []
     for size in SIZES:
