@@ -81,10 +81,10 @@ def describe(
         position = int(np.flatnonzero(free == index)[0])
         error = None if name in ends.withdrawn else known.standard_error(position)
         relative = float(known.relative_error[position])
-        found = estimated(name, value, error, relative, degrees, UNITS[name])
+        parameter = estimated(name, value, error, relative, degrees, UNITS[name])
         if name in profiles:
-            found = replace(found, interval95=profiles[name].interval95)
-        parameters[name] = found
+            parameter = replace(parameter, interval95=profiles[name].interval95)
+        parameters[name] = parameter
     warnings += ends.warnings
     if law.companion is not None:
         warned = ((view.id, law.companion.extrapolation(view.excitation.rate)) for view in problem.views)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 Method = Literal["laplace", "emcee"]
 METHODS: tuple[Method, ...] = ("laplace", "emcee")
 
-ROUNDS = 100
+MOST_REDRAWS = 100
 """Times that draws below zero are drawn again before it is given up."""
 
 
@@ -96,7 +96,7 @@ def normal_draws(centre: FloatArray, covariance: LabelledMatrix, count: int, ran
     spread, basis = np.linalg.eigh(matrix / np.outer(size, size))
     root = size[:, None] * basis * np.sqrt(np.maximum(spread, 0.0))
     values = np.empty((0, len(centre)))
-    for _ in range(ROUNDS):
+    for _ in range(MOST_REDRAWS):
         drawn = centre + random.standard_normal((count - len(values), len(centre))) @ root.T
         values = np.concatenate([values, drawn[np.all(drawn >= 0.0, axis=1)]])
         if len(values) == count:

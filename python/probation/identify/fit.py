@@ -135,12 +135,12 @@ def fit(
                 weighted = weigh(finer, weighted.parameters, weighting, searched, excitation)
     if progress:
         progress(Part(0.9, "standard errors, the test for a gap"))
-    found = describe(campaign, weighted, chosen, method, weighting, limits, intervals)
+    fitted = describe(campaign, weighted, chosen, method, weighting, limits, intervals)
     if gap and not bounds and excitation == "auto":
-        found = _judged(found, campaign, hold)
+        fitted = _judged(fitted, campaign, hold)
     if progress:
         progress(1.0)
-    return found
+    return fitted
 
 
 def plain_fit(campaign: Campaign, scheme: Scheme | SchemeName = "sa3", hold: Mapping[str, float] | None = None) -> Fit:
@@ -171,13 +171,13 @@ def gap_of(campaign: Campaign) -> Gap | None:
         return None
 
 
-def _judged(found: Fit, campaign: Campaign, hold: Mapping[str, float] | None) -> Fit:
+def _judged(fitted: Fit, campaign: Campaign, hold: Mapping[str, float] | None) -> Fit:
     """The fit with the test for a gap, and its errors with what replicates show of the specimens' scatter."""
     try:
         base = _base_of(campaign, hold)
-        return with_scatter(replace(found, gap=find_gap(base, effects(), predicted=False)), base)
+        return with_scatter(replace(fitted, gap=find_gap(base, effects(), predicted=False)), base)
     except UNSOLVABLE:
-        return found
+        return fitted
 
 
 def _base_of(campaign: Campaign, hold: Mapping[str, float] | None = None) -> BaseFit:

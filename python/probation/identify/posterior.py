@@ -55,14 +55,20 @@ class Posterior:
             Where the noise of the strain weighs the residual, or the fit was read from JSON without curves.
         """
         views = []
-        for each in records:
-            if each.strain_noise_weighed:
+        for record_fit in records:
+            if record_fit.strain_noise_weighed:
                 raise InputError(
-                    f"sample: found strain noise weighed in {each.id!r}, which method = 'emcee' does not know; "
+                    f"sample: found strain noise weighed in {record_fit.id!r}, which method = 'emcee' does not know; "
                     "use method = 'laplace'"
                 )
-            record = Record(each.id, each.time, each.true_strain, each.true_stress, noise=Noise(each.noise_MPa))
-            views.append(measured_view(record, each.excitation, scheme, substeps))
+            record = Record(
+                record_fit.id,
+                record_fit.time,
+                record_fit.true_strain,
+                record_fit.true_stress,
+                noise=Noise(record_fit.noise_MPa),
+            )
+            views.append(measured_view(record, record_fit.excitation, scheme, substeps))
         identified = DnlrLaw(law, [name for name in law.parameter_names if name not in names])
         problem = Problem.white(identified, views)
         if weighting in ("autocorrelated", "varying"):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 Bounds = tuple[float, float]
 
-FINE = 1e-6
+FINAL_STEP = 1e-6
 """Step [standard errors] at which the search for a law ends: numbers that do not depend on where it began."""
 
 LONGEST_STEP = 0.7
@@ -40,7 +40,7 @@ def coordinates_of(problem: Problem, start: FloatArray, bounds: Mapping[str, Bou
 
 
 def by_least_squares(
-    problem: Problem, start: FloatArray, bounds: Mapping[str, Bounds], *, tolerance: float = FINE
+    problem: Problem, start: FloatArray, bounds: Mapping[str, Bounds], *, tolerance: float = FINAL_STEP
 ) -> FloatArray:
     """The parameters of least cost near a start, by Gauss-Newton with the engine's sensitivities; shape (free,).
 
@@ -56,14 +56,14 @@ def by_least_squares(
     if not start.size:
         return start
     coordinates = coordinates_of(problem, start, bounds)
-    found = minimise(
+    minimum = minimise(
         SearchResidual(problem, coordinates),
         coordinates.of(start),
         bounds=coordinates.bounds,
         tolerance=tolerance,
         longest_step=LONGEST_STEP,
     )
-    return coordinates.parameters(found.x)
+    return coordinates.parameters(minimum.x)
 
 
 def by_simplex(problem: Problem, start: FloatArray, bounds: Mapping[str, Bounds]) -> FloatArray:
@@ -73,7 +73,7 @@ def by_simplex(problem: Problem, start: FloatArray, bounds: Mapping[str, Bounds]
 
     coordinates = coordinates_of(problem, start, bounds)
     objective, box = SearchResidual(problem, coordinates), coordinates.bounds
-    found = box.clip(coordinates.of(start))
+    best = box.clip(coordinates.of(start))
 
     def cost(x: FloatArray) -> float:
         return float(np.sum(objective.residual(x) ** 2))
@@ -82,17 +82,17 @@ def by_simplex(problem: Problem, start: FloatArray, bounds: Mapping[str, Bounds]
     for _ in range(8):
         result = minimize(
             cost,
-            found,
+            best,
             method="Nelder-Mead",
             bounds=SimplexBox(box.lower, box.upper),
             options={"xatol": 1e-10, "fatol": 1e-12, "maxiter": 4000, "adaptive": True},
         )
-        moved = float(np.max(np.abs(result.x - found)))
-        found = result.x
+        moved = float(np.max(np.abs(result.x - best)))
+        best = result.x
         if moved < 1e-8:
             break
     # A modulus that the simplex left just above 0 is 0.
-    return coordinates.parameters(np.where(~coordinates.log & (found < ZERO), box.lower, found))
+    return coordinates.parameters(np.where(~coordinates.log & (best < ZERO), box.lower, best))
 
 
 def first_guess(

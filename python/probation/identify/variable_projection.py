@@ -80,10 +80,10 @@ def search(
     if near is not None:
         ends = (np.log(max(near / NEARBY, bounds[0])), np.log(min(near * NEARBY, bounds[1])))
         if ends[0] < ends[1]:
-            found = _between(problem, ends, tolerance)
+            minimum = _between(problem, ends, tolerance)
             reach = 1e-3 * (ends[1] - ends[0])
-            if ends[0] + reach < found < ends[1] - reach:  # else the minimum is elsewhere
-                return project(problem, float(np.exp(found)))[0]
+            if ends[0] + reach < minimum < ends[1] - reach:  # else the minimum is elsewhere
+                return project(problem, float(np.exp(minimum)))[0]
     grid = np.linspace(np.log(bounds[0]), np.log(bounds[1]), POINTS)
     costs = []
     for done, point in enumerate(grid):

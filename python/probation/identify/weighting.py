@@ -99,10 +99,10 @@ def weigh(
         if _cost(known, there) < _cost(known, parameters):
             parameters = there
         parameters = by_least_squares(known, parameters, limits, tolerance=ROUGH_STEP)
-    found = with_residual_noise(problem, parameters, strain)
-    if not found.carries_strain_noise and all(noise.plain for noise in found.whitener.noises):
+    weighed = with_residual_noise(problem, parameters, strain)
+    if not weighed.carries_strain_noise and all(noise.plain for noise in weighed.whitener.noises):
         return Weighted(problem, parameters, added)
-    return Weighted(found, by_least_squares(found, parameters, limits, tolerance=SMALL_STEP), added)
+    return Weighted(weighed, by_least_squares(weighed, parameters, limits, tolerance=SMALL_STEP), added)
 
 
 def known_of(weighted: Weighted) -> tuple[Covariance, FloatArray]:
@@ -156,11 +156,11 @@ def _strain_noises(
     gains = _gains(problem, jacobian)
     error = _error_without(smooth, parameters, jacobian, gains)
     law = problem.law_at(parameters)
-    found: list[StrainNoise | None] = []
+    noises: list[StrainNoise | None] = []
     added: FloatArray | None = None
     for view, gain in zip(problem.views, gains, strict=True):
         if len(view.record) > NOISE.most_with_strain_noise:
-            found.append(None)
+            noises.append(None)
             enough = IDENTIFICATION.early_part_of_strain_noise * CERTIFICATE.strain_noise_matters
             if propagated_at_end(view, law) > enough * left_over(view, law):
                 moved = resampled(view, law, gain, excitation)
@@ -172,8 +172,8 @@ def _strain_noises(
         if noise is not None and weighting == "auto":
             share = share_of_error(law, noise, gain, error)
             noise = noise if float(np.max(share)) > CERTIFICATE.strain_noise_matters else None
-        found.append(noise)
-    return found, added
+        noises.append(noise)
+    return noises, added
 
 
 def _error_without(
