@@ -217,9 +217,9 @@ def _direct(
     coarse = direct.thinned()
     anchor = _anchor(coarse, whole)
     fits: dict[str, DirectFit] = {}
-    for name, each in forms.items():
+    for name, candidate_form in forms.items():
         advance(f"{name} on all records")
-        fits[name] = _from_coarse(direct, coarse, each, _starts(each, anchor, whole), whole)
+        fits[name] = _from_coarse(direct, coarse, candidate_form, _starts(candidate_form, anchor, whole), whole)
     scores: dict[str, Score] = {}
     predicted: tuple[Predicted, ...] = ()
     if leaving:
@@ -272,13 +272,13 @@ def _from_coarse(
 
 def _regressions(table: RateTable, form: str) -> dict[str, Regression]:
     """Every form that this table can have; of two that are one function here, only one unless it was asked for."""
-    found = {}
-    for name, each in FORMS.items():
-        if table.se is not None and each.same_as and name != form:
+    regressions = {}
+    for name, candidate_form in FORMS.items():
+        if table.se is not None and candidate_form.same_as and name != form:
             continue
-        if each.count(len(table.groups)) <= len(table.groups):
-            found[name] = regress(each, table)
-    return found
+        if candidate_form.count(len(table.groups)) <= len(table.groups):
+            regressions[name] = regress(candidate_form, table)
+    return regressions
 
 
 def _choice(
@@ -338,18 +338,18 @@ def _direct_candidate(
 
 
 def _table_warnings(table: RateTable, chosen: Regression) -> list[str]:
-    found = []
+    warnings = []
     if chosen.covariance is None:
-        found.append(
+        warnings.append(
             "as many rates as parameters and no standard errors: the relation goes through every point, and nothing is "
             "known of its uncertainty"
         )
     elif chosen.degrees == 0 and chosen.form.parameter_names:
-        found.append(
+        warnings.append(
             f"{len(table)} rates for {len(chosen.parameters)} parameters: the relation goes through every point, and "
             "its errors are those of the points alone; a third rate would put the form to the test"
         )
-    return found
+    return warnings
 
 
 def _need_two_rates(campaign: Campaign, rates: Sequence[RecordRate]) -> None:

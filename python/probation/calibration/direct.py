@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 Hardening = Literal["by-record", "shared"]
 HARDENINGS: tuple[Hardening, ...] = ("by-record", "shared")
 
-FINE, MOST_STEPS = 1e-6, 40
+FINAL_STEP, MOST_SEARCH_STEPS = 1e-6, 40
 """Step [standard errors] at which the search for a relation ends, and the most steps that it takes."""
 
 LONGEST_STEP = 2.0
@@ -210,7 +210,7 @@ class DirectRoute:
         InputError
             If no start gives a positive relaxation time on every record.
         """
-        found: tuple[float, FloatArray] | None = None
+        best: tuple[float, FloatArray] | None = None
         for values in start:
             try:
                 trial = _Search(self, form, calibrated, values)
@@ -218,12 +218,12 @@ class DirectRoute:
             except InputError:
                 continue
             cost = trial.cost(ended)
-            if found is None or cost < found[0]:
-                found = cost, ended
-        if found is None:
+            if best is None or cost < best[0]:
+                best = cost, ended
+        if best is None:
             raise InputError(f"companion {form.name}: found no positive relaxation time at every rate of the records")
-        last = _Search(self, form, calibrated, found[1])
-        return last.describe(last.run() if len(start) == 1 else found[1])
+        last = _Search(self, form, calibrated, best[1])
+        return last.describe(last.run() if len(start) == 1 else best[1])
 
 
 class _Search:
@@ -253,15 +253,15 @@ class _Search:
     def run(self) -> FloatArray:
         low, high = np.log(self.route.time_bounds())
         count = len(self.start)
-        found = minimise(
+        minimum = minimise(
             self,
             self.start,
             bounds=Bounds(np.full(count, low), np.full(count, high)),
-            tolerance=FINE,
+            tolerance=FINAL_STEP,
             longest_step=LONGEST_STEP,
-            most_steps=MOST_STEPS,
+            most_steps=MOST_SEARCH_STEPS,
         )
-        return self.parameters(found.x)
+        return self.parameters(minimum.x)
 
     def residual(self, log_times: FloatArray) -> FloatArray:
         """Weighted fit residual with the best moduli at ln tau_max of the anchors, shape (n_samples,)."""

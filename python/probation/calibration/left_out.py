@@ -113,8 +113,8 @@ def leave_one_rate_out(
             try:
                 fitted = direct.only(kept).fit(form, start(form), calibrated(kept))
                 for at in group:
-                    each, own = _predict(direct, int(at), name, fitted)
-                    predicted.append(each)
+                    prediction, own = _predict(direct, int(at), name, fitted)
+                    predicted.append(prediction)
                     error[at] = -own.log_alpha
             except InputError:  # no positive relaxation time at the rates left out
                 continue

@@ -61,9 +61,9 @@ class RateTable:
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, self._checked(name, unit, count))
         if len(self.groups) < 2:
-            found = ", ".join(f"{rate:.3g}" for rate in self.rates)
+            listed = ", ".join(f"{rate:.3g}" for rate in self.rates)
             raise InputError(
-                f"{self.source}: found one strain rate only ({found} 1/s in {', '.join(labels)}), expected at least "
+                f"{self.source}: found one strain rate only ({listed} 1/s in {', '.join(labels)}), expected at least "
                 f"two that differ by more than {100 * (COMPANION.same_rate - 1):.0f} %; a relation needs a second rate"
             )
 

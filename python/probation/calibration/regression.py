@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _MOST_ROUNDS = 100
 """Of the relation and the scatter around it, in turns."""
 
-FINE = 1e-8
+FINAL_STEP = 1e-8
 """Step [standard errors] at which a regression ends."""
 
 
@@ -131,10 +131,10 @@ def _least_squares(form: Form, table: RateTable, error: FloatArray | None) -> tu
         raise InputError(
             f"{table.source}: {form.name} gives no positive relaxation time at every rate of the table"
         ) from None
-    found = minimise(squares, start, tolerance=FINE)
+    minimum = minimise(squares, start, tolerance=FINAL_STEP)
     # d target / d ln tau_max: the measured value's own slope, or the weight.
     inward = measured(form, table.rates, table.tau_max)[1] if error is None else 1.0 / error
-    return squares.relation(found.x), np.asarray(np.linalg.pinv(found.jacobian) * inward)
+    return squares.relation(minimum.x), np.asarray(np.linalg.pinv(minimum.jacobian) * inward)
 
 
 @dataclass(frozen=True, eq=False)

@@ -196,11 +196,11 @@ class Calibration(Result, Stored):
                 sentence += "; the records run at one rate, so that it is confounded with what else changes with strain"
             return sentence
         sentence = f"{start}; rates left out are predicted to {percent(chosen.score.rms)} %"
-        for each in rivals if self.chosen_by == "cross-validation" else ():
-            rms = each.score.rms if each.score else np.nan
-            how = "" if each.form.name in self.discriminated else ", not discriminated"
+        for rival in rivals if self.chosen_by == "cross-validation" else ():
+            rms = rival.score.rms if rival.score else np.nan
+            how = "" if rival.form.name in self.discriminated else ", not discriminated"
             error = f"to {percent(rms)} %{how}" if np.isfinite(rms) else "gives no positive time at one of them"
-            sentence += f"; {each.form.name} {error}"
+            sentence += f"; {rival.form.name} {error}"
         return sentence
 
     def toml(self) -> str:
