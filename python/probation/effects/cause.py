@@ -80,7 +80,7 @@ def cause(effect: str | Effect, form: str | Form | None = None, records: str | S
     InputError
         For an unknown name, suggesting the nearest.
     """
-    found = named_effect(effect) if isinstance(effect, str) else effect
-    chosen = found.forms[0] if form is None else found.form(form) if isinstance(form, str) else form
+    resolved = named_effect(effect) if isinstance(effect, str) else effect
+    chosen = resolved.forms[0] if form is None else resolved.form(form) if isinstance(form, str) else form
     confined = (records,) if isinstance(records, str) else None if records is None else tuple(records)
-    return Cause(found, chosen, confined)
+    return Cause(resolved, chosen, confined)

@@ -37,8 +37,8 @@ def coordinate_of(
     view: RecordView, coordinate: Coordinate | CoordinateHook, values: Sequence[float] | FloatArray
 ) -> FloatArray:
     """A coordinate at every sample of a record, by name or of an effect with these values; shape (n_samples,)."""
-    found = COORDINATES[coordinate](view) if isinstance(coordinate, str) else coordinate(view, values)
-    return np.asarray(view.sampled(found), dtype=np.float64)
+    at_instants = COORDINATES[coordinate](view) if isinstance(coordinate, str) else coordinate(view, values)
+    return np.asarray(view.sampled(at_instants), dtype=np.float64)
 
 
 def is_one_value(low: float, high: float, coordinate: Coordinate | CoordinateHook) -> bool:

@@ -37,7 +37,7 @@ def passed(view: RecordView, instant: float, duration: float = 0.0) -> FloatArra
 
 def likely_instants(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[float]:
     """An even grid and, with residuals, the two instants of each record where they jump most."""
-    found = list(_EVEN)
+    instants = list(_EVEN)
     for view, residual in zip(views, residuals or (), strict=False):
         window = max(len(residual) // 100, 2)
         means = np.convolve(residual, np.ones(window) / window, mode="valid")
@@ -45,6 +45,6 @@ def likely_instants(views: Sequence[RecordView], residuals: Sequence[FloatArray]
         for _ in range(2):
             best = int(np.argmax(jump))
             instant = view.sampled(view.elapsed)[best + window] / view.duration
-            found.append(float(np.clip(instant, 0.0, 1.0)))
+            instants.append(float(np.clip(instant, 0.0, 1.0)))
             jump[max(best - 2 * window, 0) : best + 2 * window] = 0.0
-    return found
+    return instants

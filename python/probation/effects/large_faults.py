@@ -176,7 +176,7 @@ def _lag(effect: Effect, size: _Size) -> tuple[Form, ...]:
     filtered = (effect.form(name) for name in ("filter", "strain_filter"))
     return (
         _widened(delay, EFFECTS.large_lag, delay.amplitude.lower, delay.amplitude.upper, both_ways),
-        *(_widened(each, EFFECTS.large_lag, 0.0, each.amplitude.upper, EFFECTS.lag_starts) for each in filtered),
+        *(_widened(form, EFFECTS.large_lag, 0.0, form.amplitude.upper, EFFECTS.lag_starts) for form in filtered),
     )
 
 

@@ -31,10 +31,10 @@ def maxwell_element(time: FloatArray, values: FloatArray, relaxation_time: float
     moved = values - values[0]
     size = float(np.max(np.abs(moved))) or 1.0  # the engine takes strains: any other quantity may be far larger
     law = _core.Law(1.0, 0.0, relaxation_time, 1.0, None, _one_mode())
-    found = np.empty(len(time))
+    response = np.empty(len(time))
     solver = _core.Solver(_core.History(time, moved / size), _core.Scheme.sa2)
-    solver.stress(law, _core.LawChange(), found)
-    return size * found
+    solver.stress(law, _core.LawChange(), response)
+    return size * response
 
 
 def maxwell_element_in_strain(strain: FloatArray, values: FloatArray, relaxation_strain: float) -> FloatArray:
@@ -54,16 +54,16 @@ def maxwell_element_in_strain(strain: FloatArray, values: FloatArray, relaxation
     way = (strain - strain[0]) / relaxation_strain
     steps = np.diff(way)
     kept = np.divide(-np.expm1(-steps), steps, out=np.ones_like(steps), where=steps > 0.0)
-    found = np.zeros(len(values))
+    response = np.zeros(len(values))
     # y_n = sum of kept_i dv_i e^(way_i - way_n): in blocks, since e^way may exceed all numbers.
     begin = 0
     while begin < len(steps):
         end = max(int(np.searchsorted(way, way[begin] + LONGEST, side="right")) - 1, begin + 1)
         grown = np.exp(np.minimum(way[begin : end + 1] - way[begin], 2.0 * LONGEST))
         added = np.cumsum(kept[begin:end] * np.diff(values)[begin:end] * grown[1:])
-        found[begin + 1 : end + 1] = (found[begin] + added) / grown[1:]
+        response[begin + 1 : end + 1] = (response[begin] + added) / grown[1:]
         begin = end
-    return found
+    return response
 
 
 @lru_cache(maxsize=1)

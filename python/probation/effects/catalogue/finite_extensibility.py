@@ -60,15 +60,15 @@ def _three_chains(view: RecordView, values: Values) -> Modification | None:
 def _stiffening(part: FloatArray) -> FloatArray:
     """L^-1(y) / 3y, straight beyond `locked`."""
     y = np.minimum(part, EFFECTS.locked)
-    found = inverse_langevin(y) / (3.0 * y)
+    factor = inverse_langevin(y) / (3.0 * y)
     beyond = part > EFFECTS.locked
     if np.any(beyond):
         step = 1e-4
         low, high = inverse_langevin(np.array([EFFECTS.locked - step, EFFECTS.locked])) / (
             3.0 * np.array([EFFECTS.locked - step, EFFECTS.locked])
         )
-        found = found + (high - low) / step * np.maximum(part - EFFECTS.locked, 0.0)
-    return found
+        factor = factor + (high - low) / step * np.maximum(part - EFFECTS.locked, 0.0)
+    return factor
 
 
 def inverse_langevin(y: FloatArray) -> FloatArray:
@@ -79,9 +79,9 @@ def inverse_langevin(y: FloatArray) -> FloatArray:
     bounded = np.where(small, 0.5, y)
     x = bounded * (3.0 - bounded**2) / (1.0 - bounded**2)
     for _ in range(5):
-        found = 1.0 / np.tanh(x) - 1.0 / x
+        langevin = 1.0 / np.tanh(x) - 1.0 / x
         slope = 1.0 / x**2 - 1.0 / np.sinh(np.minimum(x, 300.0)) ** 2
-        x = x - (found - bounded) / slope
+        x = x - (langevin - bounded) / slope
     return np.where(small, series, x)
 
 

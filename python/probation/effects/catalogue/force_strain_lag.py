@@ -32,9 +32,9 @@ def delayed(time: FloatArray, samples: FloatArray, delay: float) -> FloatArray:
     u = (wanted - time[here]) / step
     rise = samples[here + 1] - samples[here]
     bend = (1.0 - u) * (step * slopes[here] - rise) + u * (rise - step * slopes[here + 1])
-    found = samples[here] + u * rise + u * (1.0 - u) * bend
+    interpolated = samples[here] + u * rise + u * (1.0 - u) * bend
     beyond = samples[-1] + slopes[-1] * (wanted - time[-1])
-    return np.where(wanted < time[0], samples[0], np.where(wanted > time[-1], beyond, found))
+    return np.where(wanted < time[0], samples[0], np.where(wanted > time[-1], beyond, interpolated))
 
 
 def _filter(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:

@@ -63,10 +63,10 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     """Peaks of the residuals' periodogram, or some cycles over the longest record; sine and cosine."""
     if residuals is None:
         longest = max(view.duration for view in views)
-        found = [cycles / longest for cycles in _CYCLES]
+        frequencies = [cycles / longest for cycles in _CYCLES]
     else:
-        found = [peak for view, each in zip(views, residuals, strict=True) for peak in _peaks(view, each)]
-    inside = [float(np.clip(frequency, _FREQUENCY.lower, _FREQUENCY.upper)) for frequency in found]
+        frequencies = [peak for view, residual in zip(views, residuals, strict=True) for peak in _peaks(view, residual)]
+    inside = [float(np.clip(frequency, _FREQUENCY.lower, _FREQUENCY.upper)) for frequency in frequencies]
     return [(frequency, phase) for frequency in inside for phase in (0.0, 0.5 * np.pi)]
 
 

@@ -170,10 +170,10 @@ def _drops(view: RecordView, values: tuple[float, ...]) -> FloatArray:
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """The likeliest periods of the residuals; without residuals the prior's centre."""
-    found = [_PERIOD.centre]
+    periods = [_PERIOD.centre]
     if residuals is not None:
-        found = likely_periods([view.sampled(view.largest_strain) for view in views], residuals)
-    inside = [float(np.clip(likely, _PERIOD.lower, _PERIOD.upper)) for likely in found]
+        periods = likely_periods([view.sampled(view.largest_strain) for view in views], residuals)
+    inside = [float(np.clip(likely, _PERIOD.lower, _PERIOD.upper)) for likely in periods]
     return [(likely, recovery, _ONSET, _GROWTH, 1.0) for likely in inside for recovery in _RECOVERIES]
 
 

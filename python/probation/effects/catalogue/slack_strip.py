@@ -45,10 +45,10 @@ def slack_intervals(view: RecordView) -> list[tuple[int, int]]:
 
 def _inside(view: RecordView) -> NDArray[np.bool_]:
     """Instants at which the strip is slack, shape (n,)."""
-    found = np.zeros(len(view), dtype=np.bool_)
+    slack = np.zeros(len(view), dtype=np.bool_)
     for first, last in slack_intervals(view):
-        found[first * view.stride : last * view.stride + 1] = True
-    return found
+        slack[first * view.stride : last * view.stride + 1] = True
+    return slack
 
 
 def _own_strain(view: RecordView, values: Values) -> FloatArray:
