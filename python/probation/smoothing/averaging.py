@@ -52,10 +52,10 @@ class Averaging:
         In some of them the curve hides an average that others show. The mean of those that show it, weighted by their
         samples; white noise if none does.
         """
-        estimates = [(len(values), found) for values in segments if (found := averaging_of(values)) is not None]
+        estimates = [(len(values), averaging) for values in segments if (averaging := averaging_of(values)) is not None]
         if not estimates:
             return cls()
-        parts = [(found.inflation, found.hidden) for _, found in estimates]
+        parts = [(estimate.inflation, estimate.hidden) for _, estimate in estimates]
         inflation, hidden = np.average(parts, axis=0, weights=[count for count, _ in estimates]).tolist()
         return cls(inflation, hidden)
 
@@ -79,7 +79,7 @@ def averaging_of(values: FloatArray) -> Averaging | None:
     values : ndarray, shape (n,)
         At even intervals or nearly so, without a jump of the slope.
     """
-    estimates = [found for order in ORDERS if (found := _by_differences(values, order)) is not None]
+    estimates = [averaging for order in ORDERS if (averaging := _by_differences(values, order)) is not None]
     return max(estimates, key=lambda estimate: estimate.inflation) if estimates else None
 
 

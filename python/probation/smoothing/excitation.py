@@ -219,12 +219,14 @@ def excite_each(
     """
     one_of(method, "excitation", METHODS)
     measured = [_Measured.of(record, method) for record in (*records, *further)]
-    smoothed = [each for each in measured if each.method != "raw"]
+    smoothed = [measurement for measurement in measured if measurement.method != "raw"]
     averaging = Averaging.pooled(
-        segment for each in smoothed for segment in segments_of(each.record.true_strain, each.jumps)
+        segment
+        for measurement in smoothed
+        for segment in segments_of(measurement.record.true_strain, measurement.jumps)
     )
-    for each in measured[: len(records)]:
-        yield each.known(averaging).excitation(averaging.inflation, automatic=method == "auto")
+    for wanted in measured[: len(records)]:
+        yield wanted.known(averaging).excitation(averaging.inflation, automatic=method == "auto")
 
 
 def excitations_of(

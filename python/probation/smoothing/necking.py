@@ -289,9 +289,9 @@ def _fit_formula(
         unit = NeckingHistory(a=-np.exp(x[0]), b=1.0, c=1.0 / (1.0 + np.exp(-x[1])), d=np.exp(x[2]), duration=duration)
         columns = [_formula(signal, unit, t)] + ([np.ones_like(t)] if signal == "strain" else [])
         design = weights[:, None] * np.column_stack(columns)
-        found = np.linalg.lstsq(design, weights * measured, rcond=None)[0]
-        offset = float(found[1]) if signal == "strain" else 0.0
-        return _with(unit, b=float(found[0])), offset, design @ found - weights * measured
+        coefficients = np.linalg.lstsq(design, weights * measured, rcond=None)[0]
+        offset = float(coefficients[1]) if signal == "strain" else 0.0
+        return _with(unit, b=float(coefficients[0])), offset, design @ coefficients - weights * measured
 
     def residual(x: FloatArray) -> FloatArray:
         return solved(x)[2] / size
@@ -300,12 +300,12 @@ def _fit_formula(
     size = float(np.ptp(weights * measured))
     best = sorted(starts, key=lambda x: float(np.sum(residual(x) ** 2)))[:REFINED]
     limits = ([-np.inf, -8.0, -12.0], [np.inf, 8.0, 30.0])
-    found = min((least_squares(residual, x, bounds=limits) for x in best), key=lambda fitted: fitted.cost)
-    size *= max(float(np.median(np.abs(found.fun))), 1e-12)  # a second time, outliers held at bay
+    minimum = min((least_squares(residual, x, bounds=limits) for x in best), key=lambda fitted: fitted.cost)
+    size *= max(float(np.median(np.abs(minimum.fun))), 1e-12)  # a second time, outliers held at bay
     loss: Literal["soft_l1", "linear"] = "soft_l1" if signal == "strain" else "linear"
-    found = least_squares(
+    minimum = least_squares(
         residual,
-        found.x,
+        minimum.x,
         bounds=limits,
         loss=loss,
         f_scale=SMOOTHING.necking_outlier,
@@ -313,7 +313,7 @@ def _fit_formula(
         xtol=1e-13,
         gtol=1e-13,
     )
-    history, offset, _ = solved(found.x)
+    history, offset, _ = solved(minimum.x)
     return history, offset
 
 
@@ -321,8 +321,8 @@ def _starts(duration: float) -> list[FloatArray]:
     """The paper's experiments at this duration, and around them."""
     base = [necking.slowed(duration / necking.duration) for necking in NECKING_SETS.values()]
     return [
-        _unbounded(_with(each, a=each.a * sharper, d=each.d * deeper))
-        for each, sharper, deeper in product(base, (0.5, 1.0, 2.0, 4.0), (0.1, 0.4, 1.0, 3.0))
+        _unbounded(_with(history, a=history.a * sharper, d=history.d * deeper))
+        for history, sharper, deeper in product(base, (0.5, 1.0, 2.0, 4.0), (0.1, 0.4, 1.0, 3.0))
     ]
 
 

@@ -190,8 +190,8 @@ class Score:
         grid = np.linspace(*self.limits, COARSE)
         at = int(np.argmin([self(point) for point in grid]))
         ends = (grid[max(at - 1, 0)], grid[min(at + 1, COARSE - 1)])
-        found = minimize_scalar(self, bounds=ends, method="bounded", options={"xatol": 0.01})
-        return self.shrink(float(found.x))
+        minimum = minimize_scalar(self, bounds=ends, method="bounded", options={"xatol": 0.01})
+        return self.shrink(float(minimum.x))
 
 
 def _smooth(time: FloatArray, true_strain: FloatArray, order: int, lags: Transient | None, averaged: float) -> Smoothed:
@@ -202,14 +202,14 @@ def _smooth(time: FloatArray, true_strain: FloatArray, order: int, lags: Transie
     knots = min(most, max(FEWEST_KNOTS, min(count // SMOOTHING.samples_per_knot, MOST_KNOTS)))
     own = averaging_of(true_strain)
     averaged = averaged if own is None else max(averaged, own.inflation)
-    found = _with_knots(time, true_strain, order, knots, lags, averaged)
-    while found.freedom > SMOOTHING.exhausted * knots and knots < min(most, ALL_KNOTS):
+    smoothed = _with_knots(time, true_strain, order, knots, lags, averaged)
+    while smoothed.freedom > SMOOTHING.exhausted * knots and knots < min(most, ALL_KNOTS):
         knots = min(2 * knots, most, ALL_KNOTS)
         finer = _with_knots(time, true_strain, order, knots, lags, averaged)
-        if finer.noise > SMOOTHING.better * found.noise:
+        if finer.noise > SMOOTHING.better * smoothed.noise:
             break
-        found = finer
-    return found
+        smoothed = finer
+    return smoothed
 
 
 def _with_knots(

@@ -33,20 +33,20 @@ def smooth_savitzky_golay(time: FloatArray, true_strain: FloatArray) -> Smoothed
     tried = [LocalCubics(time, true_strain, window) for window in sorted({2 * int(size / 2) + 1 for size in sizes})]
     grown = 1.0
     for _ in range(ROUNDS):
-        found = tried[int(np.argmin([fitted.score(SMOOTHING.prudence * grown) for fitted in tried]))]
-        before, grown = grown, max(grown, inflation(true_strain - found.strain))
+        best = tried[int(np.argmin([fitted.score(SMOOTHING.prudence * grown) for fitted in tried]))]
+        before, grown = grown, max(grown, inflation(true_strain - best.strain))
         if grown < 1.02 * before:
             break
-    strain_error, rate_error = found.norms()
+    strain_error, rate_error = best.norms()
     return Smoothed(
-        found.strain,
-        found.rate,
+        best.strain,
+        best.rate,
         np.sqrt(grown) * strain_error,
         np.sqrt(grown) * rate_error,
-        found.freedom,
-        found.squares,
+        best.freedom,
+        best.squares,
         grown,
-        found.operators,
+        best.operators,
     )
 
 
@@ -87,8 +87,8 @@ class LocalCubics:
         strain, rate = (
             np.concatenate(
                 [
-                    np.broadcast_to(each, (inside,)) if at == 1 else each
-                    for at, each in enumerate(np.linalg.norm(rows[which], axis=2).ravel() for rows in self.weights)
+                    np.broadcast_to(errors, (inside,)) if at == 1 else errors
+                    for at, errors in enumerate(np.linalg.norm(rows[which], axis=2).ravel() for rows in self.weights)
                 ]
             )
             for which in (0, 1)

@@ -59,9 +59,9 @@ def find_jumps(
     seen = _jumps_in_noise(time, true_strain, noise)
     jumps = sorted(
         {
-            each
+            place
             for at, jump, to in _between(seen, len(time))
-            for each in _as_two(time, true_strain, noise, jump, (at, to))
+            for place in _as_two(time, true_strain, noise, jump, (at, to))
         }
     )
     stress_noise = 0.0 if true_stress is None else noise_level(time, true_stress)
@@ -135,8 +135,10 @@ def _as_two(time: FloatArray, values: FloatArray, noise: float, jump: int, betwe
     )
     lagging = min(left_lagging(since, lag * interval) for since in behind[1:-1] for lag in SMOOTHING.lag_times)
     scale = max(noise, float(np.sqrt(two / len(t))))
-    found = two <= max(described, SMOOTHING.left_by_two * one) and two < lagging - SMOOTHING.jump_evidence * scale**2
-    return corners if found else [jump]
+    shows_two = (
+        two <= max(described, SMOOTHING.left_by_two * one) and two < lagging - SMOOTHING.jump_evidence * scale**2
+    )
+    return corners if shows_two else [jump]
 
 
 def _smallest_window(time: FloatArray) -> int:
@@ -157,17 +159,17 @@ def _with_stress(
     `stress_corner` standard errors, and no cubic describes the samples better by as much: the place is known, and
     needs no search.
     """
-    found = sorted(jumps)
+    corrected = sorted(jumps)
     reach = SMOOTHING.wider_jump_windows[-1] * _smallest_window(time)
     for corner in corners:
-        near = min(found, key=lambda jump: abs(jump - corner), default=None)
-        others = [jump for jump in found if jump != near]
+        near = min(corrected, key=lambda jump: abs(jump - corner), default=None)
+        others = [jump for jump in corrected if jump != near]
         if near is not None and abs(near - corner) <= reach:
             if near != corner and _agrees(time, true_strain, noise, near, corner, others):
-                found = sorted({*others, corner})
-        elif _is_jump(time, true_strain, noise, corner, found):
-            found = sorted([*found, corner])
-    return found
+                corrected = sorted({*others, corner})
+        elif _is_jump(time, true_strain, noise, corner, corrected):
+            corrected = sorted([*corrected, corner])
+    return corrected
 
 
 def _without_lags(
@@ -186,13 +188,13 @@ def _without_lags(
     show that a jump is sharp; then it is no lag. The stress `bends` by itself: a cubic and parabolas stand for the
     parabola and the lines.
     """
-    found: list[int] = []
+    kept: list[int] = []
     borders = [*jumps, len(time) - 1]
     for jump, after in pairwise(borders):
-        before = found[-1] if found else 0
+        before = kept[-1] if kept else 0
         if jump in sharp or not _is_lag(time, values, noise, (before, jump, after), bends=bends):
-            found.append(jump)
-    return found
+            kept.append(jump)
+    return kept
 
 
 def _between(jumps: Sequence[int], count: int) -> list[tuple[int, int, int]]:
@@ -244,7 +246,7 @@ def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, i
     interval = float(np.median(np.diff(t[: SMOOTHING.border_samples + 1])))
     fading = (np.exp(-t / (lag * interval)) for lag in SMOOTHING.lag_times)
     powers = np.vander(t, 4 if bends else 3)
-    lagging = min(_left_by(np.column_stack([powers, each]), y) for each in fading)
+    lagging = min(_left_by(np.column_stack([powers, decay]), y) for decay in fading)
     return lagging < corner + SMOOTHING.jump_evidence * max(noise, float(np.sqrt(corner / len(t)))) ** 2
 
 

@@ -81,28 +81,26 @@ def fit_sines(time: FloatArray, residual: FloatArray, weights: FloatArray | None
         SMOOTHING.slowest_sine, min(SMOOTHING.fastest_sine, count / SMOOTHING.samples_per_cycle), SMOOTHING.sine_spacing
     )
     turns = np.exp(2j * np.pi * np.outer(grid, x))
-    found = [fit(np.empty(0))]
-    while len(found) <= min(SMOOTHING.most_sines, len(grid) // 4) and not _settled(found):
-        peak = grid[int(np.argmax(np.abs(turns @ (sums * found[-1].rest))))]
-        found.append(_refined(fit, np.append(found[-1].frequencies, peak), float(grid[-1])))
-    best = found[int(np.argmin(_criteria(found)))].frequencies
+    fits = [fit(np.empty(0))]
+    while len(fits) <= min(SMOOTHING.most_sines, len(grid) // 4) and not _settled(fits):
+        peak = grid[int(np.argmax(np.abs(turns @ (sums * fits[-1].rest))))]
+        fits.append(_refined(fit, np.append(fits[-1].frequencies, peak), float(grid[-1])))
+    best = fits[int(np.argmin(_criteria(fits)))].frequencies
     whole = _Fit((time - start) / duration, weight, weight * residual, best)
     return Sines(best / duration, whole.weights, start)
 
 
-def _settled(found: Sequence[_Fit]) -> bool:
+def _settled(fits: Sequence[_Fit]) -> bool:
     """Whether the last `SMOOTHING.sines_in_vain` sines were not wanted."""
-    return (
-        len(found) > SMOOTHING.sines_in_vain and int(np.argmin(_criteria(found))) < len(found) - SMOOTHING.sines_in_vain
-    )
+    return len(fits) > SMOOTHING.sines_in_vain and int(np.argmin(_criteria(fits))) < len(fits) - SMOOTHING.sines_in_vain
 
 
-def _criteria(found: Sequence[_Fit]) -> list[float]:
+def _criteria(fits: Sequence[_Fit]) -> list[float]:
     """The Bayesian information criterion of each, the noise being what the last leaves."""
-    last = found[-1].rest
+    last = fits[-1].rest
     count = len(last)
     neighbours = float(np.clip(last[1:] @ last[:-1] / max(float(last @ last), 1e-300), 0.0, 0.98))
-    innovations = (sines.rest[1:] - neighbours * sines.rest[:-1] for sines in found)
+    innovations = (sines.rest[1:] - neighbours * sines.rest[:-1] for sines in fits)
     return [
         count * float(np.log(max(float(rest @ rest), 1e-300))) + 3 * number * float(np.log(count))
         for number, rest in enumerate(innovations)
@@ -150,5 +148,5 @@ def _refined(fit: Callable[[FloatArray], _Fit], start: FloatArray, highest: floa
     def rest(frequencies: FloatArray) -> FloatArray:
         return fit(frequencies).rest / size
 
-    found = least_squares(rest, inside, bounds=(SMOOTHING.slowest_sine, highest), max_nfev=60)
-    return fit(np.asarray(found.x))
+    minimum = least_squares(rest, inside, bounds=(SMOOTHING.slowest_sine, highest), max_nfev=60)
+    return fit(np.asarray(minimum.x))

@@ -97,13 +97,13 @@ class WithTransient:
         noise : float
             Standard deviation of their slow noise [-].
         """
-        found, most = None, -SMOOTHING.lag_caution
+        best, most = None, -SMOOTHING.lag_caution
         for count in (SMOOTHING.short_lags, lags.strain.shape[1]):
             some = Transient(lags.strain[:, :count], lags.rate[:, :count])
             made, evidence = cls._weighed(some, smooth, values, noise)
             if evidence > most:
-                found, most = made, evidence
-        return found
+                best, most = made, evidence
+        return best
 
     @classmethod
     def _weighed(
