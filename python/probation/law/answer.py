@@ -100,9 +100,9 @@ def _companion_from(answer: object) -> Companion | None:
         if key not in known and key != "form":
             raise InputError(f"law.companion: found no {quoted(key)} that is known of the form {form}")
     values = {
-        each.name: _entry(table, "law.companion", key)
-        for key, each in known.items()
-        if key in table or each.default is MISSING
+        declared.name: _entry(table, "law.companion", key)
+        for key, declared in known.items()
+        if key in table or declared.default is MISSING
     }
     made: Companion = relation(
         **{name: tuple(value) if isinstance(value, list) else value for name, value in values.items()}

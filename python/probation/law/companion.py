@@ -48,12 +48,12 @@ class Companion:
     calibrated: tuple[float, float] | None
 
     def __post_init__(self) -> None:
-        for each in fields(self):  # type: ignore[arg-type]
-            if each.name != "calibrated":
-                number = as_number(getattr(self, each.name), each.name)
+        for declared in fields(self):  # type: ignore[arg-type]
+            if declared.name != "calibrated":
+                number = as_number(getattr(self, declared.name), declared.name)
                 if not isfinite(number):
-                    raise InputError(f"{each.name} is {number}; a finite number is needed")
-                object.__setattr__(self, each.name, number)
+                    raise InputError(f"{declared.name} is {number}; a finite number is needed")
+                object.__setattr__(self, declared.name, number)
         self._check_calibrated()
         self._engine()
 

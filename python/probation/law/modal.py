@@ -215,9 +215,9 @@ class Law(Displayed):
         starts_relaxed = modification is None or checked(modification).initial_stress is None
         if chosen.substeps == 1 and true_strain is not None and starts_relaxed:
             law, change = (self.engine, UNCHANGED) if modification is None else self._modified(modification)
-            found = _core.stress_where_held(law, change, chosen.engine, out, time, true_strain)
-            if found is not None:  # None: the arrays have to be made ready first, or refused
-                return found
+            stress_at_once = _core.stress_where_held(law, change, chosen.engine, out, time, true_strain)
+            if stress_at_once is not None:  # None: the arrays have to be made ready first, or refused
+                return stress_at_once
             if not is_history(time):
                 arguments = history_arguments(cast("ArrayLike", time), true_strain)
                 stress = as_output(out, arguments[0].shape)

@@ -147,8 +147,8 @@ def checked(modification: Modification) -> Modification:
 
 def refuse(modification: Modification | None, names: frozenset[str], where: str) -> None:
     """An `InputError` if a modification has what a caller, named `where`, cannot follow."""
-    if modification is not None and (found := sorted(checked(modification).changed & names)):
-        raise InputError(f"modification: found {', '.join(found)}, which {where} cannot follow; Law.stress can")
+    if modification is not None and (refused := sorted(checked(modification).changed & names)):
+        raise InputError(f"modification: found {', '.join(refused)}, which {where} cannot follow; Law.stress can")
 
 
 def _initial_hardening(change: _core.LawChange, haward_thackray_strain: float) -> float:

@@ -64,10 +64,10 @@ def fewer_modes(
         except RuntimeError:  # nnls gives up on times that all but coincide: no more modes can be discriminated
             break
         weights = weights * (weight.sum() / weights.sum())
-        found = FewerModes(times, weights, *kernel.errors(times, weights))
-        if best is None or found.error < best.error:
-            best = found
-        if found.error <= accuracy:
+        fewer = FewerModes(times, weights, *kernel.errors(times, weights))
+        if best is None or fewer.error < best.error:
+            best = fewer
+        if fewer.error <= accuracy:
             break
         times = kernel.with_one_more(times)
     return best
@@ -108,14 +108,14 @@ class _Kernel:
         low, high = self.limits[0] - 1e-9, self.limits[1] + 1e-9
         from scipy.optimize import least_squares  # noqa: PLC0415
 
-        found = least_squares(
+        minimum = least_squares(
             self._misfit,
             np.clip(np.log(times), low + 1e-10, high - 1e-10),
             bounds=(low, high),
             x_scale=0.1,
             max_nfev=100,
         )
-        times = np.unique(np.exp(found.x))
+        times = np.unique(np.exp(minimum.x))
         weights = self.weights(times)[0]
         return times[weights > 0.0], weights[weights > 0.0]
 

@@ -173,12 +173,12 @@ def as_scheme(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHEM
     InputError
         If it is neither, or has no sensitivities where they are needed: `among` is then `DIFFERENTIABLE`.
     """
-    found = _NAMED.get(scheme) if isinstance(scheme, str) else scheme
-    if not isinstance(found, Scheme):
+    chosen = _NAMED.get(scheme) if isinstance(scheme, str) else scheme
+    if not isinstance(chosen, Scheme):
         raise InputError(f"scheme is {scheme!r}; expected one of {', '.join(among)}")
-    if found.name not in among:
+    if chosen.name not in among:
         raise InputError(f"scheme is {scheme!r}; it has no sensitivities, expected one of {', '.join(among)}")
-    return found
+    return chosen
 
 
 def at_samples(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHEMES) -> Scheme:
@@ -189,12 +189,12 @@ def at_samples(scheme: Scheme | SchemeName, among: Collection[SchemeName] = SCHE
     InputError
         As `as_scheme`, and for a scheme with substeps.
     """
-    found = as_scheme(scheme, among)
-    if found.substeps != 1:
+    chosen = as_scheme(scheme, among)
+    if chosen.substeps != 1:
         raise InputError(
             f"scheme is {scheme!r}; expected a scheme with substeps=1: one step from sample to sample is taken here"
         )
-    return found
+    return chosen
 
 
 def identifying(
@@ -214,12 +214,12 @@ def identifying(
     InputError
         If the scheme has no sensitivities, or both arguments say how many, and not the same.
     """
-    found = as_scheme(scheme, DIFFERENTIABLE)
-    if found.substeps == 1:
-        return found, substeps
-    if substeps not in ("auto", found.substeps):
+    chosen = as_scheme(scheme, DIFFERENTIABLE)
+    if chosen.substeps == 1:
+        return chosen, substeps
+    if substeps not in ("auto", chosen.substeps):
         raise InputError(f"scheme is {scheme!r} and substeps is {substeps!r}; expected one number of steps")
-    return replace(found, substeps=1), found.substeps
+    return replace(chosen, substeps=1), chosen.substeps
 
 
 def scheme_of(name: SchemeName, start: Start) -> Scheme:

@@ -153,8 +153,8 @@ def reduce_spectrum(
     9
     """
     if (accuracy is None) == (modes is None):
-        found = "neither" if accuracy is None else "both"
-        raise InputError(f"accuracy and modes: found {found}, expected one of them")
+        given = "neither" if accuracy is None else "both"
+        raise InputError(f"accuracy and modes: found {given}, expected one of them")
     original = Spectrum.log_spaced() if spectrum is None else spectrum
     if modes is not None:
         count = as_whole_number(modes, "modes")
