@@ -34,18 +34,18 @@ def assemble(
     InputError
         At the first thing that is wrong, by file, row and column.
     """
-    found = extract(table, reading, options, film=film)
-    measure = next(name for name in STRESS_ROLES if name in found.samples)
+    extracted = extract(table, reading, options, film=film)
+    measure = next(name for name in STRESS_ROLES if name in extracted.samples)
     area = dimension(table, reading, options, "area_mm2", measure) if measure == "force" else None
-    transverse = found.samples.get("transverse_strain")
-    shrinks = transverse is not None and shrinks_in_tension(found.true_strain, transverse)
+    transverse = extracted.samples.get("transverse_strain")
+    shrinks = transverse is not None and shrinks_in_tension(extracted.true_strain, transverse)
     section = None if shrinks else transverse
     record = Record(
         id=record_id,
-        time=found.samples["time"],
-        true_strain=found.true_strain,
-        true_stress=true_stress_from(measure, found.samples[measure], found.stretch, area, section),
-        **{name: found.samples.get(name) for name in OPTIONAL_ROLES},
+        time=extracted.samples["time"],
+        true_strain=extracted.true_strain,
+        true_stress=true_stress_from(measure, extracted.samples[measure], extracted.stretch, area, section),
+        **{name: extracted.samples.get(name) for name in OPTIONAL_ROLES},
         control=control,
         role=role,
         specimen_id=specimen_id,
@@ -53,12 +53,12 @@ def assemble(
         file=None if source is None else source.path,
         sha256="" if source is None else source.sha256,
         warnings=(
-            *found.warnings,
+            *extracted.warnings,
             *dimension_warning(table, reading, options, "area_mm2", area),
             *_section_warning(measure, measured=section is not None, shrinks=shrinks),
         ),
         profile=profile,
-        clock=found.clock,
+        clock=extracted.clock,
     )
     return as_started(record, start)
 

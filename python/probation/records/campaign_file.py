@@ -151,10 +151,12 @@ def _calibration(table: TomlTable) -> CalibrationSettings | None:
         return None
     rates = None
     if "calibrated_rates_per_s" in table.values:
-        found = table.numbers("calibrated_rates_per_s")
-        if len(found) != 2:
-            raise table.complain("calibrated_rates_per_s", f"{len(found)} calibrated_rates_per_s", "two, slowest first")
-        rates = (found[0], found[1])
+        numbers = table.numbers("calibrated_rates_per_s")
+        if len(numbers) != 2:
+            raise table.complain(
+                "calibrated_rates_per_s", f"{len(numbers)} calibrated_rates_per_s", "two, slowest first"
+            )
+        rates = (numbers[0], numbers[1])
     return CalibrationSettings(
         rates=rates,
         covariance=table.rows_of_numbers("covariance") if "covariance" in table.values else None,
@@ -233,7 +235,7 @@ def _strain_from(folder: Path, entry: TomlTable) -> dict[str, object]:
     columns.only(ROLES)
     units.only(ROLES)
     specimen.only(SPECIMEN_KEYS)
-    found: dict[str, object] = {
+    said: dict[str, object] = {
         "file": str(_existing(folder, given, "file").absolute()),
         "columns": {role: _label(columns, role) for role in columns.values},
         "units": {role: units.text(role) for role in units.values},
@@ -246,8 +248,8 @@ def _strain_from(folder: Path, entry: TomlTable) -> dict[str, object]:
         ("profile", given.text),
     ):
         if key in given.values:
-            found[key] = read(key)
-    return found
+            said[key] = read(key)
+    return said
 
 
 def _label(columns: TomlTable, role: str) -> str | int:

@@ -134,11 +134,13 @@ def _proposed(machine: Signals, film: Signals, shifts: FloatArray, step: float) 
         frames[i] = (grid[both] >= start).sum()
     rests = _filled(sums, frames, float((grid >= start).sum()))
     inner = np.flatnonzero((rests[1:-1] <= rests[:-2]) & (rests[1:-1] <= rests[2:])) + 1
-    found: list[float] = []
+    proposed: list[float] = []
     for i in sorted([*inner.tolist(), int(np.argmin(rests))], key=rests.__getitem__):
-        if rests[i] < READING.clock_proposed * rests.min() and all(abs(shifts[i] - other) > reach for other in found):
-            found.append(float(shifts[i]))
-    return found[:_MOST_PROPOSED]
+        if rests[i] < READING.clock_proposed * rests.min() and all(
+            abs(shifts[i] - other) > reach for other in proposed
+        ):
+            proposed.append(float(shifts[i]))
+    return proposed[:_MOST_PROPOSED]
 
 
 class _Tie:

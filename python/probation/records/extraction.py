@@ -240,14 +240,14 @@ def _check_samples(table: Table, columns: dict[str, Column], raw: _Raw, minimum:
     fault = find_fault(samples, minimum)
     if fault is None:
         return
-    found = fault.found
+    wrong = fault.found
     if not np.isfinite(samples[fault.quantity][fault.sample]):
         at = table.row_numbers.index(raw.rows[fault.sample])
         cell = table.cells(columns[fault.quantity])[at].strip()
-        found = quoted(cell) if cell else "an empty cell"
+        wrong = quoted(cell) if cell else "an empty cell"
     raise bad_input(
         table.path,
-        found,
+        wrong,
         fault.expected,
         row=raw.rows[fault.sample],
         column=columns[fault.quantity].label,

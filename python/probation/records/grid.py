@@ -115,8 +115,8 @@ def check_extent(source: Source, row: int, columns: int, cells: int) -> None:
     InputError
         Naming the row.
     """
-    for found, most, what in ((row, ROWS, "rows"), (columns, COLUMNS, "columns"), (cells, CELLS, "cells")):
-        if found > most:
+    for count, most, what in ((row, ROWS, "rows"), (columns, COLUMNS, "columns"), (cells, CELLS, "cells")):
+        if count > most:
             raise bad_input(
                 source.path,
                 f"more than {most} {what}",

@@ -113,11 +113,11 @@ def header_block(path: Path, cells: Sequence[Sequence[str]]) -> HeaderBlock:
     tabled = _table_of_specimens(path, rows)
     if tabled:
         return HeaderBlock(_facts(rows), tabled)
-    found: dict[str, float] = {}
+    dimensions: dict[str, float] = {}
     said = [*filter(None, map(_dimension, rows)), *(dimension for row in rows for dimension in _in_remarks(row))]
     for key, value, _ in sorted(said, key=lambda dimension: dimension[2]):
-        found.setdefault(key, value)
-    needed = _needed(path, found)
+        dimensions.setdefault(key, value)
+    needed = _needed(path, dimensions)
     return HeaderBlock(_facts(rows), (needed,) if needed else ())
 
 
@@ -207,20 +207,20 @@ def _table_of_specimens(path: Path, rows: Sequence[Sequence[str]]) -> tuple[dict
             cells = {place: values[place] for place in keys if place < len(values)}
             if not cells or not all(map(is_number, cells.values())):
                 break
-            found = [_in_millimetres(keys[place], text, units[place]) for place, text in cells.items()]
-            specimens.append(_needed(path, dict(dimension for dimension in found if dimension is not None)))
+            converted = [_in_millimetres(keys[place], text, units[place]) for place, text in cells.items()]
+            specimens.append(_needed(path, dict(dimension for dimension in converted if dimension is not None)))
         if specimens:
             return tuple(specimens)
     return ()
 
 
-def _needed(path: Path, found: dict[str, float]) -> dict[str, float]:
+def _needed(path: Path, dimensions: dict[str, float]) -> dict[str, float]:
     """The section and the gauge length of what the block gives; a section given twice is the area."""
-    if "area_mm2" in found or not {"width_mm", "thickness_mm"} <= set(found):
-        found = {key: value for key, value in found.items() if key not in ("width_mm", "thickness_mm")}
-    if "area_mm2" in found or "width_mm" in found:
-        found.pop("diameter_mm", None)
+    if "area_mm2" in dimensions or not {"width_mm", "thickness_mm"} <= set(dimensions):
+        dimensions = {key: value for key, value in dimensions.items() if key not in ("width_mm", "thickness_mm")}
+    if "area_mm2" in dimensions or "width_mm" in dimensions:
+        dimensions.pop("diameter_mm", None)
     try:
-        return with_area(path, found)
+        return with_area(path, dimensions)
     except InputError:  # a section beyond all numbers: it is not needed where the file has stresses
-        return {key: value for key, value in found.items() if key == "gauge_length_mm"}
+        return {key: value for key, value in dimensions.items() if key == "gauge_length_mm"}

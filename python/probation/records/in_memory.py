@@ -151,7 +151,7 @@ def _records(
             raise InputError(
                 f"{place}: noise: found {noise!r}, expected a probation.Noise, such as Noise(stress_MPa=0.04)"
             )
-    found = []
+    records = []
     for name, taken in rows.items():
         options = read_options(place, columns=columns_of, units=units, specimen=each_specimen.get(name))
         picked = _Lazily(partial(_taken, place, values, taken, f"{len(names)}, as many as {named}"))
@@ -164,7 +164,7 @@ def _records(
             values=picked,
         )
         keys = {key: value[name] for key, value in each_said.items() if name in value}
-        found.append(
+        records.append(
             assemble(
                 None,
                 "",
@@ -175,7 +175,7 @@ def _records(
                 **keys,
             )
         )
-    return tuple(found)
+    return tuple(records)
 
 
 def _taken(place: Path, values: Mapping[str, FloatArray], rows: list[int], expected: str, label: str) -> FloatArray:
@@ -214,8 +214,8 @@ def _labels(place: Path, frame: Any) -> list[str]:
             raise bad_input(place, f"the column name {label!r}", "names that are text", remedy="rename the columns")
     repeated = [label for label in labels if labels.count(label) > 1]
     if repeated or not labels:
-        found = f"two columns named {quoted(repeated[0])}" if repeated else "no columns"
-        raise bad_input(place, found, "one column of each name")
+        fault = f"two columns named {quoted(repeated[0])}" if repeated else "no columns"
+        raise bad_input(place, fault, "one column of each name")
     return labels
 
 
@@ -241,13 +241,13 @@ def _samples(place: Path, label: str, values: Any, what: str) -> FloatArray:
     if given.dtype.kind not in "OUST":
         remedy = "subtract the first and divide by a second" if given.dtype.kind in "mM" else ""
         raise bad_input(place, f"values of type {given.dtype}", "real numbers", column=label, remedy=remedy)
-    found = np.full(len(given), np.nan)
+    samples = np.full(len(given), np.nan)
     for at, value in enumerate(given.tolist()):
         try:
             missing = value is None or type(value).__name__ in ("NAType", "NaTType")
-            found[at] = np.nan if missing else float(value)
+            samples[at] = np.nan if missing else float(value)
         except (TypeError, ValueError, OverflowError):
             raise bad_input(
                 place, quoted(str(value)), "a number", row=at + 1, column=label, remedy=f"correct the {what}"
             ) from None
-    return found
+    return samples

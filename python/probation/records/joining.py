@@ -92,13 +92,13 @@ def join(path: Path, film: Film, time: FloatArray, force: FloatArray, displaceme
 def _untold(path: Path, film: Film, shift: Shift) -> InputError:
     """Complain that the two files do not tell how their clocks differ."""
     fits = joined((f"{value:.4g} s" for value in (shift.value, *shift.others)), "and")
-    found = (
+    evidence = (
         f"{len(shift.others) + 1} shifts at which the strain of {film.file} fits about as well ({fits})"
         if shift.others
         else f"nothing that tells the shift of {film.file}, no start of the test in both (best {fits})"
     )
     return InputError(
-        f"{path}: found {found}, expected one; say it: strain_from = {{ …, shift_s = … }} (--strain-shift), "
+        f"{path}: found {evidence}, expected one; say it: strain_from = {{ …, shift_s = … }} (--strain-shift), "
         "what is added to the time of that file"
     )
 

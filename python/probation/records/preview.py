@@ -111,13 +111,13 @@ def preview(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -> Preview:
     """
     path = Path(path)
     options = read_options(path, **how)
-    source, found, reading = open_file(path, options)
+    source, profile, reading = open_file(path, options)
     _, table = chosen_tables(path, reading, options.specimen_index)[0]
-    records = () if reading.auxiliary else assemble_all(source, found, reading, options)
+    records = () if reading.auxiliary else assemble_all(source, profile, reading, options)
     return Preview(
         path=path,
-        profile=found.name,
-        title=found.title,
+        profile=profile.name,
+        title=profile.title,
         encoding="" if is_workbook(source) else source.encoding,
         separator=reading.separator,
         decimal=table.decimal,

@@ -55,9 +55,9 @@ def read_records(
     path = Path(path)
     options = read_options(path, **how)
     made = partial(assemble_all, control=control, role=role, noise=noise, start=start)
-    source, found, reading = _open_records(path, options, start)
+    source, profile, reading = _open_records(path, options, start)
     if len(reading.like_sheets) < 2:
-        return made(source, found, reading, options, record_id=record_id)
+        return made(source, profile, reading, options, record_id=record_id)
     records: list[Record] = []
     for sheet in reading.like_sheets:
         chosen = replace(options, sheet=sheet)
@@ -66,12 +66,12 @@ def read_records(
 
 
 def _open_records(path: Path, options: ReadOptions, start: str) -> tuple[Source, Profile, Reading]:
-    source, found, reading = open_file(path, options)
+    source, profile, reading = open_file(path, options)
     if reading.auxiliary:
         raise bad_input(path, reading.auxiliary, "a stress-strain record", remedy="name another file")
     if start not in STARTS:
         raise InputError(f"{path}: start: found {start!r}; {suggestion(start, STARTS)}")
-    return source, found, reading
+    return source, profile, reading
 
 
 def read_record(

@@ -58,11 +58,11 @@ def read_strain_history(path: str | PathLike[str], **how: Unpack[ReadingKeys]) -
     if len(tables) > 1:
         raise several_specimens(path, len(tables))
     _, table = tables[0]
-    found = extract(table, reading, options, with_stress=False, minimum=_MINIMUM_SAMPLES)
+    extracted = extract(table, reading, options, with_stress=False, minimum=_MINIMUM_SAMPLES)
     return StrainRecord(
-        time=found.samples["time"],
-        true_strain=found.true_strain,
-        strain_rate=found.samples.get("strain_rate"),
+        time=extracted.samples["time"],
+        true_strain=extracted.true_strain,
+        strain_rate=extracted.samples.get("strain_rate"),
         file=path,
-        warnings=found.warnings,
+        warnings=extracted.warnings,
     )

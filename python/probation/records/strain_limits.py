@@ -38,8 +38,8 @@ def impossible_sample(role: str, values: FloatArray, true_strain: FloatArray, st
     impossible = np.abs(true_strain) > LARGEST_TRUE_STRAIN
     if not stated and role in _REFUSED:
         impossible |= values > _REFUSED[role]
-    found = np.flatnonzero(impossible)
-    return int(found[0]) if found.size else None
+    indices = np.flatnonzero(impossible)
+    return int(indices[0]) if indices.size else None
 
 
 def expected_strain(role: str, stated: bool) -> str:

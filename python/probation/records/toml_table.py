@@ -205,15 +205,15 @@ def _check_nesting(path: Path, text: str) -> None:
         first = token[0][0]
         depth += (first in "[{") - (first in "]}")
         dots = dots + 1 if first == "." else 0 if first in "=\n[{" else dots
-        found = (
+        excess = (
             f"tables and lists nested deeper than {NESTING}"
             if max(depth, dots) >= NESTING
             else f"a number of more than {NUMBER_DIGITS} digits"
             if first in "0123456789_"
             else ""
         )
-        if found:
-            raise bad_input(path, found, "fewer", row=text.count("\n", 0, token.start()) + 1)
+        if excess:
+            raise bad_input(path, excess, "fewer", row=text.count("\n", 0, token.start()) + 1)
 
 
 def _check_whole_numbers(path: Path, value: object, name: str = "") -> None:

@@ -163,13 +163,13 @@ def convert(values: FloatArray, unit: str, target: str) -> FloatArray:
         raise ValueError("unit 'mPa', millipascal")
     if unit.strip() == target:
         return values
-    found, wanted = parse_unit(unit), parse_unit(target)
-    if found is None or wanted is None:
+    given, wanted = parse_unit(unit), parse_unit(target)
+    if given is None or wanted is None:
         raise ValueError(f"unknown unit {quoted(unit)}")
-    if found.powers != wanted.powers:
+    if given.powers != wanted.powers:
         raise ValueError(f"unit {quoted(unit)}")
-    ratio = found.factor / wanted.factor
-    shift = (found.offset - wanted.offset) / wanted.factor
+    ratio = given.factor / wanted.factor
+    shift = (given.offset - wanted.offset) / wanted.factor
     with np.errstate(
         over="ignore"
     ):  # what is beyond all numbers is refused with its place, as is all beyond the limits

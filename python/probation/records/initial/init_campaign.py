@@ -193,15 +193,15 @@ class _Target:
 
 def _by_file(paths: Sequence[Path], given: Mapping[str, Mapping[str, Any]]) -> dict[str, Mapping[str, Any]]:
     names = [path.name for path in paths]
-    found: dict[str, Mapping[str, Any]] = {}
+    by_name: dict[str, Mapping[str, Any]] = {}
     for name, keys in given.items():
         if Path(name).name not in names:
             raise InputError(
                 f"found something said of {quoted(name)}, which is not among the files; "
                 + suggestion(Path(name).name, names)
             )
-        found[Path(name).name] = {**found.get(Path(name).name, {}), **keys}
-    return found
+        by_name[Path(name).name] = {**by_name.get(Path(name).name, {}), **keys}
+    return by_name
 
 
 def _where_not_stated(path: Path, how: ReadingKeys, own: Mapping[str, Any]) -> ReadingKeys:
@@ -233,13 +233,13 @@ def _entries(
     while (question := next_question(path, how)) is not None:
         how = answered(path, how, question, _answer(question, ask))
     options = read_options(path, **how)
-    source, found, reading = open_file(path, options)
+    source, profile, reading = open_file(path, options)
     sheets: Sequence[str | None] = reading.like_sheets if len(reading.like_sheets) > 1 else (options.sheet,)
     entries = []
     for sheet in sheets:
         chosen = replace(options, sheet=sheet)
-        source, found, reading = open_file(path, chosen)
-        records = assemble_all(source, found, reading, chosen)
+        source, profile, reading = open_file(path, chosen)
+        records = assemble_all(source, profile, reading, chosen)
         tables = chosen_tables(path, reading, chosen.specimen_index)
         for record, (number, table) in zip(records, tables, strict=True):
             _check_moves(path, record)
@@ -261,7 +261,7 @@ def _entries(
                     _driven(named, choices, ask),
                     file,
                     {key: value for key, value in keys.items() if value},
-                    f"by profile {found.name}: {read}",
+                    f"by profile {profile.name}: {read}",
                     table.specimen,
                 )
             )

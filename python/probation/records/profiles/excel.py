@@ -61,7 +61,7 @@ def _read(source: Source, options: ReadOptions) -> Reading:
                 f"{source.path}: found no sheet {quoted(options.sheet)}; "
                 + suggestion(options.sheet, workbook.sheetnames)
             )
-        filled = [(name, found) for name in sheets if (found := _grid(source, workbook, name))[0].rows]
+        filled = [(name, content) for name in sheets if (content := _grid(source, workbook, name))[0].rows]
         heads = {name: _grid(source, workbook, name, _HEADED_ROWS)[0] for name in workbook.sheetnames}
     finally:
         workbook.close()
@@ -93,14 +93,14 @@ def _is_headed_alike(grid: Grid, table: Table) -> bool:
 
 def _said_elsewhere(source: Source, heads: Mapping[str, Grid], like: Sequence[str], name: str) -> dict[str, float]:
     """Dimensions in the sheets without samples: of all specimens, or a row for each in the order of their sheets."""
-    found: dict[str, float] = {}
+    dimensions: dict[str, float] = {}
     for other, head in heads.items():
         if other == name or other in like:
             continue
         block = header_block(source.path, head.rows)
         if len(block.specimens) in (1, len(like)):
-            found = block.specimen(like.index(name) if name in like else 0) | found
-    return found
+            dimensions = block.specimen(like.index(name) if name in like else 0) | dimensions
+    return dimensions
 
 
 def _open(source: Source) -> "Workbook":
