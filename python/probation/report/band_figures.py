@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from probation.identify.band import StressBand
     from probation.identify.result import Fit
 
-LEVELS = (0.683, 0.95)
+ELLIPSE_PROBABILITIES = (0.683, 0.95)
 """Joint probabilities of the ellipses."""
 
 REACH = 3.5
@@ -98,7 +98,7 @@ def _together(axes: Axes, centre: FloatArray, matrix: FloatArray) -> None:
     spread, basis = np.linalg.eigh(matrix)
     angle = np.linspace(0.0, 2.0 * np.pi, 200)
     circle = np.stack([np.cos(angle), np.sin(angle)])
-    for level, alpha in zip(LEVELS, (0.45, 0.2), strict=True):
+    for level, alpha in zip(ELLIPSE_PROBABILITIES, (0.45, 0.2), strict=True):
         root = basis * np.sqrt(np.maximum(spread, 0.0) * chdtri(2, 1.0 - level))
         x, y = centre[:, None] + root @ circle
         axes.fill(x, y, color=colour("model"), alpha=alpha, lw=0)

@@ -85,20 +85,20 @@ def parameter_figure(certificate: Certificate) -> Figure:
     with styled_figure(7.6, 0.7 + 0.24 * sum(len(entries) for entries in shown.values()) + 0.6 * len(shown)) as figure:
         panels = figure.subplots(len(shown), 1, squeeze=False)[:, 0]
         for axes, (name, entries) in zip(panels, shown.items(), strict=True):
-            each = certificate.parameters[name]
-            good = not each.tested or each.passes
+            certified = certificate.parameters[name]
+            good = not certified.tested or certified.passes
             for at, (_, value, error) in enumerate(entries):
                 shade = colour("model" if good else "bad")
                 axes.errorbar(
                     value, at, xerr=TWO_SIDED_95 * (error or 0.0), fmt="o", ms=4, capsize=3, lw=1.2, color=shade
                 )
             if good:  # values that differ have no common one
-                axes.axvline(each.mean, color=colour("muted"), lw=0.8)
+                axes.axvline(certified.mean, color=colour("muted"), lw=0.8)
             axes.set_yticks(range(len(entries)), [record for record, *_ in entries])
             axes.set_ylim(len(entries) - 0.5, -0.5)
             axes.grid(axis="y", visible=False)
             label = f"{SYMBOLS[name]} [{UNITS[name]}]" if UNITS[name] else SYMBOLS[name]
-            verdict = ("passes" if each.passes else "does not pass") if each.tested else "not tested"
+            verdict = ("passes" if certified.passes else "does not pass") if certified.tested else "not tested"
             axes.set_title(verdict, color=colour("ink" if good else "bad"))
             axes.set(xlabel=label, ylabel="record")
             axes.ticklabel_format(axis="x", useOffset=False)

@@ -32,8 +32,8 @@ def comparison_figure(comparison: Comparison) -> Figure:
     short = short_ids(comparison.curves)
     with styled_figure(8.4, 0.9 + 1.9 * len(comparison.curves)) as figure:
         panels = figure.subplots(len(comparison.curves), 1, squeeze=False)[:, 0]
-        for axes, (name, each) in zip(panels, comparison.curves.items(), strict=True):
-            _draw(axes, each)
+        for axes, (name, curves) in zip(panels, comparison.curves.items(), strict=True):
+            _draw(axes, curves)
             axes.set_title(short[name])
         panels[-1].set_xlabel("time [s]")
         _name_curves(figure)

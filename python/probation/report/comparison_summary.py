@@ -13,13 +13,13 @@ from probation.wording import WIDTH, chance
 if TYPE_CHECKING:
     from probation.comparison.result import Comparison
 
-MOST = 6
+MOST_EXPLANATIONS = 6
 
 
 def comparison_summary(comparison: Comparison) -> str:
     """The headline, then every explanation of the answer set and the next ones, then the records."""
     lines = [f"{comparison.campaign}: {comparison.headline}", ""]
-    for explanation in comparison.explanations[:MOST]:
+    for explanation in comparison.explanations[:MOST_EXPLANATIONS]:
         star = "*" if explanation in comparison.answer_set else " "
         where = ", ".join(explanation.records)
         text = f"{star} {chance(explanation.probability):>6}  {named(explanation)}" + (f" in {where}" if where else "")

@@ -33,9 +33,9 @@ def diagnosis_figure(diagnosis: Diagnosis) -> Figure:
     names = short_ids(diagnosis.curves, 44)
     with styled_figure(7.6, 0.4 + 2.1 * len(diagnosis.curves)) as figure:
         panels = figure.subplots(len(diagnosis.curves), 2, squeeze=False, width_ratios=(1, 1))
-        for at, ((left, right), each) in enumerate(zip(panels, diagnosis.curves.values(), strict=True)):
-            label = _draw(left, right, each, diagnosis)
-            left.set_title(_title(each, names), fontsize=9)
+        for at, ((left, right), curves) in enumerate(zip(panels, diagnosis.curves.values(), strict=True)):
+            label = _draw(left, right, curves, diagnosis)
+            left.set_title(_title(curves, names), fontsize=9)
             left.set_xlabel(label)
             right.set_xlabel(label)
             if at == 0:
@@ -45,11 +45,11 @@ def diagnosis_figure(diagnosis: Diagnosis) -> Figure:
 
 def record_figure(diagnosis: Diagnosis, record_id: str) -> Figure:
     """One record: stress with and without the best explanation, below it what both miss, in units of the noise."""
-    each = diagnosis.curves[record_id]
+    curves = diagnosis.curves[record_id]
     with styled_figure(3.9, 3.7) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.35, 1))
-        below.set_xlabel(_draw(above, below, each, diagnosis))
-        above.set_title(fill(_title(each, short_ids(diagnosis.curves, 44)), 46), fontsize=9)
+        below.set_xlabel(_draw(above, below, curves, diagnosis))
+        above.set_title(fill(_title(curves, short_ids(diagnosis.curves, 44)), 46), fontsize=9)
         above.legend(loc="best", fontsize=7.5)
     return figure
 
@@ -58,20 +58,20 @@ def _title(curves: RecordCurves, names: dict[str, str]) -> str:
     return names[curves.id] if curves.role == "identify" else f"{names[curves.id]} – not fitted"
 
 
-def _draw(stress: Axes, errors: Axes, each: RecordCurves, diagnosis: Diagnosis) -> str:
+def _draw(stress: Axes, errors: Axes, record: RecordCurves, diagnosis: Diagnosis) -> str:
     """Both panels of a record; returns the label of their common axis."""
-    x, label = _axis(each)
-    stress.plot(*thinned(x, each.data, _DOTS), ".", ms=5, mew=0, color=colour("data"), label="measured")
-    curves = [("base law", each.base, "second")]
-    if each.explained is not None:
-        curves.append(("with the explanation", each.explained, "model"))
+    x, label = _axis(record)
+    stress.plot(*thinned(x, record.data, _DOTS), ".", ms=5, mew=0, color=colour("data"), label="measured")
+    curves = [("base law", record.base, "second")]
+    if record.explained is not None:
+        curves.append(("with the explanation", record.explained, "model"))
     for name, model, shade in curves:
         stress.plot(*thinned(x, model, _POINTS), color=colour(shade), lw=1.0, label=name)
         errors.plot(
-            *thinned(x, (model - each.data) / np.maximum(each.noise, 1e-300), _POINTS), color=colour(shade), lw=0.7
+            *thinned(x, (model - record.data) / np.maximum(record.noise, 1e-300), _POINTS), color=colour(shade), lw=0.7
         )
     for region in diagnosis.located:
-        if region.record == each.id:
+        if region.record == record.id:
             inside = x[region.samples]
             for axes in (stress, errors):
                 axes.axvspan(float(inside.min()), float(inside.max()), color=colour("second"), alpha=0.1, lw=0)
@@ -101,11 +101,17 @@ def probability_figure(diagnosis: Diagnosis) -> Figure:
     places, rows = _rows(names)
     with styled_figure(5.3, 0.8 + 0.36 * rows) as figure:
         axes = figure.subplots()
-        for at, each in zip(places, shown, strict=False):
-            inside = each.effects in diagnosis.answer_set
-            size = 100.0 * each.probability
+        for at, shown_explanation in zip(places, shown, strict=False):
+            inside = shown_explanation.effects in diagnosis.answer_set
+            size = 100.0 * shown_explanation.probability
             axes.barh(at, size, height=0.62, color=colour("model" if inside else "data"), alpha=1.0 if inside else 0.6)
-            axes.text(size + 1.0, at, f"{chance(each.probability)}{'  ★' if inside else ''}", va="center", fontsize=8.5)
+            axes.text(
+                size + 1.0,
+                at,
+                f"{chance(shown_explanation.probability)}{'  ★' if inside else ''}",
+                va="center",
+                fontsize=8.5,
+            )
         if others:
             rest = max(1.0 - sum(explanation.probability for explanation in shown), 0.0)
             axes.barh(places[-1], 100.0 * rest, height=0.62, color=colour("data"), alpha=0.6)
@@ -153,8 +159,8 @@ def closure_figure(diagnosis: Diagnosis) -> Figure:
     rows += [(names.get(record, record), closure) for record, closure in shrink.records.items()]
     with styled_figure(5.3, 1.1 + 0.34 * len(rows)) as figure:
         axes = figure.subplots()
-        for at, (_, each) in enumerate(rows):
-            axes.plot([each.before_MPa, each.after_MPa], [at, at], color=colour("muted"), lw=0.9, zorder=1)
+        for at, (_, errors) in enumerate(rows):
+            axes.plot([errors.before_MPa, errors.after_MPa], [at, at], color=colour("muted"), lw=0.9, zorder=1)
         for label, shade, marker, values in (
             ("noise", "ink", "|", [closure.noise_MPa for _, closure in rows]),
             ("before", "second", "o", [closure.before_MPa for _, closure in rows]),
@@ -164,9 +170,9 @@ def closure_figure(diagnosis: Diagnosis) -> Figure:
             axes.plot(values, range(len(rows)), marker, color=colour(shade), ms=size, mew=1.2, label=label)
         axes.set_xscale("log")
         _plain_decades(axes, [v for _, e in rows for v in (e.before_MPa, e.after_MPa, e.noise_MPa)])
-        for at, (_, each) in enumerate(rows):
+        for at, (_, errors) in enumerate(rows):
             axes.annotate(
-                closed(each), (1.01, at), xycoords=("axes fraction", "data"), va="center", fontsize=8.5, clip_on=False
+                closed(errors), (1.01, at), xycoords=("axes fraction", "data"), va="center", fontsize=8.5, clip_on=False
             )
         axes.axhline(together - 0.5, color=colour("muted"), lw=0.6)
         axes.set_yticks(range(len(rows)), [fill(name, 20) for name, _ in rows])

@@ -160,11 +160,12 @@ def _records(diagnosis: Diagnosis) -> Section:
 
 
 def _caption(diagnosis: Diagnosis, record: str) -> str:
-    each = diagnosis.shrink.records.get(record)
-    if each is None or diagnosis.curves[record].explained is None:
+    closure = diagnosis.shrink.records.get(record)
+    if closure is None or diagnosis.curves[record].explained is None:
         return f"{record}: measured, and the base law."
     return (
-        f"{record}: error {each.before_MPa:.2g} MPa rms before, {each.after_MPa:.2g} after; noise {each.noise_MPa:.2g}."
+        f"{record}: error {closure.before_MPa:.2g} MPa rms before, {closure.after_MPa:.2g} after; "
+        f"noise {closure.noise_MPa:.2g}."
     )
 
 
@@ -252,7 +253,7 @@ def _isolability(diagnosis: Diagnosis) -> Section:
 
 
 def _looked_for(diagnosis: Diagnosis) -> Section:
-    sought = {name for each in diagnosis.explanations for name in each.effects} | {
+    sought = {name for explanation in diagnosis.explanations for name in explanation.effects} | {
         name.removeprefix("effect ").partition("[")[0] for name in diagnosis.gap.p_values if name.startswith("effect ")
     }
     if diagnosis.isolability is not None:

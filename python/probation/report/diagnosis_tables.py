@@ -80,21 +80,21 @@ def which_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     """Explanations, the most probable first; a star marks those that the data cannot distinguish from the best."""
     shown = list(diagnosis.explanations)
     rows = []
-    for each in shown:
-        star = "★" if each.effects in diagnosis.answer_set else ""
+    for shown_explanation in shown:
+        star = "★" if shown_explanation.effects in diagnosis.answer_set else ""
         # Without a gap no cause is fitted: each is weighed from an amplitude of zero, which is no estimate.
-        detail = diagnosis.verdict != "no_gap" and (bool(star) or each.checks is not None)
+        detail = diagnosis.verdict != "no_gap" and (bool(star) or shown_explanation.checks is not None)
         rows.append(
             (
                 star,
-                explanation_name(each, diagnosis),
-                "\n".join(parameter_lines(each, diagnosis)) if detail else "",
-                "\n".join(checks_text(each)),
-                chance(each.probability),
+                explanation_name(shown_explanation, diagnosis),
+                "\n".join(parameter_lines(shown_explanation, diagnosis)) if detail else "",
+                "\n".join(checks_text(shown_explanation)),
+                chance(shown_explanation.probability),
             )
         )
     empty = {at for at in (2, 3) if not any(row[at] for row in rows)}
-    inside = [max(each.probability, float(bool(row[0]))) for each, row in zip(shown, rows, strict=True)]
+    inside = [max(explanation.probability, float(bool(row[0]))) for explanation, row in zip(shown, rows, strict=True)]
     kept = _kept(inside, most)
     headings = ("", "explanation", "its parameters", "checks", "probability")
     caption = "Which effect explains the gap (★: the data cannot distinguish these)"
@@ -142,13 +142,13 @@ def shrink_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, 
     rows = [
         (
             label,
-            f"{each.before_MPa:.3g}",
-            f"{each.after_MPa:.3g}",
-            f"{each.noise_MPa:.3g}",
-            closed(each),
-            closed_interval(each),
+            f"{closure.before_MPa:.3g}",
+            f"{closure.after_MPa:.3g}",
+            f"{closure.noise_MPa:.3g}",
+            closed(closure),
+            closed_interval(closure),
         )
-        for label, each in lines
+        for label, closure in lines
     ]
     kept = len(rows) if most is None else min(most, len(rows))
     headings = ("records", "before", "after", floor_name(diagnosis), "gap closed", "90 % interval")
@@ -163,11 +163,11 @@ def noise_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     names = short_ids(diagnosis.curves)
     rows = [
         (
-            names[each.id],
-            f"{each.noise_MPa:.2g} ({_source(each.noise_given)})",
-            f"{each.strain_noise:.2g} ({_source(each.strain_noise_given)})",
+            names[curves.id],
+            f"{curves.noise_MPa:.2g} ({_source(curves.noise_given)})",
+            f"{curves.strain_noise:.2g} ({_source(curves.strain_noise_given)})",
         )
-        for each in diagnosis.curves.values()
+        for curves in diagnosis.curves.values()
     ]
     kept = len(rows) if most is None else min(most, len(rows))
     headings = ("record", "noise of the stress [MPa]", "of the strain [–]")
@@ -193,11 +193,11 @@ def base_table(diagnosis: Diagnosis) -> Table:
     """Parameters of the base law as fitted without any effect."""
     rows = tuple(
         (
-            each.name,
-            f"{each.value:.5g}" if each.se is None else plus_minus(each.value, each.se),
-            _STATUS.get(each.status, each.status),
+            parameter.name,
+            f"{parameter.value:.5g}" if parameter.se is None else plus_minus(parameter.value, parameter.se),
+            _STATUS.get(parameter.status, parameter.status),
         )
-        for each in diagnosis.base
+        for parameter in diagnosis.base
     )
     headings = ("parameter", "value ± standard error", "by the data")
     return Table(headings, rows, "The base law, fitted without any effect")

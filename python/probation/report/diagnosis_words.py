@@ -156,15 +156,15 @@ def checks_text(explanation: Explanation) -> list[str]:
     checks = explanation.checks
     if checks is None:
         return []
-    found = [*_prediction(checks)]
+    phrases = [*_prediction(checks)]
     if checks.amplitude_p_value is not None:
         same = checks.amplitude_p_value >= EVIDENCE.same_amplitude
-        found.append("one strength suits all records" if same else "each record wants another strength")
+        phrases.append("one strength suits all records" if same else "each record wants another strength")
     if explanation.effects and checks.remaining_p_value < DETECTION.gap_level and explanation.effects != (UNKNOWN,):
-        found.append("a gap is left in addition")
+        phrases.append("a gap is left in addition")
     elif explanation.effects and UNKNOWN not in explanation.effects:
-        found.append("what is left may be noise and the form's error")
-    return [*found, *(_without_names(note, explanation) for note in checks.notes)]
+        phrases.append("what is left may be noise and the form's error")
+    return [*phrases, *(_without_names(note, explanation) for note in checks.notes)]
 
 
 def _without_names(note: str, explanation: Explanation) -> str:

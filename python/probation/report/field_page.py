@@ -38,8 +38,8 @@ COLOURS = "Colours span 1 to 99 % of the pixels; a grey pixel was refused or has
 def field_figure(maps: FieldMaps) -> Figure:
     """E_u tau_max, G and the residual; below, standard errors, and the residual over the noise."""
     with styled_figure(10.6, 6.6) as drawn:
-        for axes, each in zip(drawn.subplots(2, 3).flat, _panels(maps), strict=True):
-            _draw(axes, maps, each)
+        for axes, panel in zip(drawn.subplots(2, 3).flat, _panels(maps), strict=True):
+            _draw(axes, maps, panel)
         good, beyond = np.count_nonzero(maps.identified), np.count_nonzero(maps.beyond_noise)
         drawn.suptitle(
             f"{good} of {maps.identified.size} pixels identified, {beyond} beyond the noise; grey: refused, or no data",
@@ -54,9 +54,9 @@ def map_figures(maps: FieldMaps) -> dict[str, Figure]:
     """The same maps by their titles, a figure each, as a page has them side by side."""
     drawn: dict[str, Figure] = {}
     with house_style():
-        for each in _panels(maps):
-            drawn[each.title] = new_figure(4.1, 3.3)
-            _draw(drawn[each.title].subplots(), maps, each)
+        for panel in _panels(maps):
+            drawn[panel.title] = new_figure(4.1, 3.3)
+            _draw(drawn[panel.title].subplots(), maps, panel)
     return drawn
 
 
@@ -73,8 +73,8 @@ def _panels(maps: FieldMaps) -> list[_Panel]:
     values = [(SYMBOLS[name], name, maps.maps[name]) for name in names]
     with np.errstate(invalid="ignore", divide="ignore"):
         errors = [
-            (f"standard error of {symbol}", 100.0 * maps.maps[f"{name}_standard_error"] / np.abs(each))
-            for symbol, name, each in values
+            (f"standard error of {symbol}", 100.0 * maps.maps[f"{name}_standard_error"] / np.abs(values_of))
+            for symbol, name, values_of in values
         ]
         ratio = maps.maps["rms_residual"] / maps.maps["noise"]
     return [

@@ -182,8 +182,8 @@ def figure_to_svg(figure: Figure, label: str) -> str:
     svg = re.sub(r'<g id="[^"]*">', "<g>", svg)
     svg = re.sub(r"<!--.*?-->", "", svg)
     svg = re.sub(r"(font(?:-family)?: [^;\"']*)'[^;\"]*", r"\1var(--sans, sans-serif)", svg)
-    for name, each in COLOURS.items():
-        svg = svg.replace(each.light, f"var(--{name}, {each.light})")
+    for name, shade in COLOURS.items():
+        svg = svg.replace(shade.light, f"var(--{name}, {shade.light})")
     svg = re.sub(r"<[^>]*>", lambda tag: _DECIMALS.sub(_shortened, tag[0]), svg)
     svg = re.sub(r"\n\s*", "\n", svg)
     return re.sub(

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from probation.design.plan import Plan
     from probation.diagnosis.isolability import CampaignIsolability
 
-LEVELS = (0.95, 0.8, 0.6)
+DARKENING_CHANCES = (0.95, 0.8, 0.6)
 """Chances of naming the right one of two below which a cell darkens; 0.5 is a toss of a coin."""
 
 _ALPHAS = (0.15, 0.3, 0.5)  # no darker: numbers stand in the cells, on a dark page too
@@ -114,7 +114,9 @@ def _explain(figure: Figure) -> None:
 
 def _alpha(chance: float) -> float:
     """How dark a cell is: 0 where the right one is named in 95 of 100 cases."""
-    return next((alpha for level, alpha in zip(LEVELS[::-1], _ALPHAS[::-1], strict=True) if chance < level), 0.0)
+    return next(
+        (alpha for level, alpha in zip(DARKENING_CHANCES[::-1], _ALPHAS[::-1], strict=True) if chance < level), 0.0
+    )
 
 
 def _cell(axes: Axes, column: float, row: float, alpha: float, chance: float | None) -> None:

@@ -28,12 +28,12 @@ HOW_TO_READ_THE_MAP = (
 
 def write_isolability_page(answer: CampaignIsolability, path: Path) -> None:
     """Write the page."""
-    found = answer.found
+    isolability = answer.found
     Page(
         title=f"What the tests of {answer.campaign} could discriminate",
-        verdict=in_words(found.headline, found),
+        verdict=in_words(isolability.headline, isolability),
         lead="Asked of the strain histories, the noise and the base law alone; what the records show plays no part.",
-        sections=effect_sections(found),
+        sections=effect_sections(isolability),
         provenance=provenance(answer.data_sha256),
     ).write(path)
 

@@ -41,8 +41,10 @@ def isolability_table(isolability: Isolability) -> Table:
     """Every effect: whether these tests would see it, and what it may be taken for; those that are named first."""
     order = list(_STATUS)
     rows = tuple(
-        (each.title, _answer(each, isolability), count_text(each.detectability), percent(each.absorbable))
-        for each in sorted(isolability.effects, key=lambda effect: (order.index(effect.status), -effect.detectability))
+        (effect.title, _answer(effect, isolability), count_text(effect.detectability), percent(effect.absorbable))
+        for effect in sorted(
+            isolability.effects, key=lambda effect: (order.index(effect.status), -effect.detectability)
+        )
     )
     return Table(("effect", "these tests", "seen", "hidden"), rows, "What these tests could say of each effect", left=2)
 

@@ -40,10 +40,10 @@ def parameter_table(plan: Plan) -> Table:
         ("·".join(SYMBOLS[name] for name in plan.law.parameter_names[:2]), plan.product),
     ]
     rows = []
-    for symbol, each in named:
-        label = f"{symbol} [{each.unit}]" if each.unit else symbol
-        value, _, interval = estimate_text(each).partition(", 95 % ")
-        rows.append((label, value, interval, each.status.replace("_", " ")))
+    for symbol, estimate in named:
+        label = f"{symbol} [{estimate.unit}]" if estimate.unit else symbol
+        value, _, interval = estimate_text(estimate).partition(", 95 % ")
+        rows.append((label, value, interval, estimate.status.replace("_", " ")))
     return Table(
         ("parameter", "value ± standard error", "95 % interval", "by the tests"), tuple(rows), EXPECTED, left=4
     )

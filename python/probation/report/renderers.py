@@ -106,11 +106,11 @@ def renderer(result: type, what: str) -> Callable[..., Any]:
     ----------
     what : {"summary", "plot", "report", "verdict", "card", "line"}
     """
-    for each in result.__mro__:
-        name = f"{each.__module__}.{each.__qualname__}".removeprefix("probation.")
+    for ancestor in result.__mro__:
+        name = f"{ancestor.__module__}.{ancestor.__qualname__}".removeprefix("probation.")
         here = {offer: f"probation.report.{function}" for offer, function in RENDERERS.get(name, {}).items()}
-        if line := here or vars(each).get("RENDERERS"):
+        if line := here or vars(ancestor).get("RENDERERS"):
             module, _, function = (FROM_SUMMARY | line)[what].rpartition(".")
-            found: Callable[..., Any] = getattr(import_module(module), function)
-            return found
+            render: Callable[..., Any] = getattr(import_module(module), function)
+            return render
     raise LookupError(f"{result.__name__} has no line in probation/report/renderers.py")

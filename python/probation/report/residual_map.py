@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 CELLS = 120
 """Parts of a record, each of one colour: the mean error within it."""
 
-LEVELS = (1.0, 3.0, 10.0, 30.0)
+NOISE_MULTIPLES = (1.0, 3.0, 10.0, 30.0)
 """Multiples of the noise at which the colour deepens; below the first there is none."""
 
 _ALPHAS = (0.2, 0.42, 0.68, 1.0)
@@ -72,7 +72,7 @@ def levels_of(error: FloatArray, noise: FloatArray) -> list[int]:
     ratio = error / np.maximum(noise, 1e-300)
     parts = np.array_split(ratio, min(CELLS, len(ratio)))
     means = np.array([float(part.mean()) for part in parts])
-    return [int(level) for level in np.sign(means) * np.searchsorted(LEVELS, np.abs(means), side="right")]
+    return [int(level) for level in np.sign(means) * np.searchsorted(NOISE_MULTIPLES, np.abs(means), side="right")]
 
 
 def _strip(axes: Axes, row: int, curves: RecordCurves, model: FloatArray, place: tuple[float, float]) -> None:
@@ -105,12 +105,12 @@ def _frame(axes: Axes, row: int, curves: RecordCurves, region: Located, numbered
 
 def _scale(axes: Axes, floor: str) -> None:
     """The colours and what they mean, from "too low" to "too high"."""
-    count = len(LEVELS)
+    count = len(NOISE_MULTIPLES)
     for level in range(-count, count + 1):
         shade, alpha = _shade(level) if level else (colour("data"), 0.12)
         axes.add_patch(Rectangle((level - 0.5, 0.0), 1.0, 1.0, facecolor=shade, alpha=alpha, lw=0))
     places = [at + 0.5 for at in range(-count, count)]
-    axes.set_xticks(places, [f"{level:g}" for level in (*reversed(LEVELS), *LEVELS)])
+    axes.set_xticks(places, [f"{level:g}" for level in (*reversed(NOISE_MULTIPLES), *NOISE_MULTIPLES)])
     axes.set(xlim=(-count - 0.5, count + 0.5), ylim=(0.0, 1.0), yticks=[])
     axes.text(-0.02, 0.5, "model too low", transform=axes.transAxes, ha="right", va="center", fontsize=8.5)
     axes.text(1.02, 0.5, "too high", transform=axes.transAxes, va="center", fontsize=8.5)
