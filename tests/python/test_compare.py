@@ -13,6 +13,7 @@ from probation.cli import main
 from probation.comparison.measured_law import MeasuredLaw
 from probation.comparison.result import Comparison
 from probation.effects.record_view import views_of
+from probation.inference.calibration_check import CalibrationCheck
 from probation_studies.blind.inject import Injection
 
 GRID = {"slow": 0.002, "fast": 0.02}
@@ -88,6 +89,14 @@ def test_a_fault_is_told_with_its_record_and_its_size(march, fault, size):
     assert told["held"]
     assert told["record"]
     assert told["covered"]
+
+
+def test_the_level_of_a_change_is_that_of_the_calibration(march, monkeypatch):
+    """A gain of 2 % is a change at any level but zero."""
+    later = measured.injected(made_up(20), Injection("slow", "force_gain", 0.02, seed=3))
+    assert compare(later, march, threads=1).verdict == "changed"
+    monkeypatch.setattr(CalibrationCheck, "gap_level", lambda check, misfit_over_noise: 0.0)
+    assert compare(later, march, threads=1).verdict == "nothing_changed"
 
 
 LAW = Law(unrelaxed_modulus=2000.0, tau_max=6.0, hardening_modulus=2.5)

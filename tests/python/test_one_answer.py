@@ -69,6 +69,16 @@ def test_the_gap_stands_in_the_answers_of_fits_and_certificates():
     assert json.loads(probation.fit(campaign).to_json())["gap"]["fitted"] is False
 
 
+def test_a_fit_says_at_which_level_a_gap_counts():
+    """0.005 where specimens are alike; 1e-5 where they may differ, which was not calibrated."""
+    campaign = few_records(count=400)
+    levels = [
+        json.loads(probation.fit(replace(campaign, specimens=probation.Specimens(scatter))).to_json())["gap"]["level"]
+        for scatter in ("none", "estimate")
+    ]
+    assert levels == [0.005, 1e-5]
+
+
 def test_without_the_test_a_fit_claims_nothing():
     """With bounds it is not the law that is tested."""
     fit = probation.fit(few_records(), bounds={"unrelaxed_modulus_MPa": (1000.0, 5000.0)})

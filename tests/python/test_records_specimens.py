@@ -66,3 +66,9 @@ def test_specimens_survive_saving_and_belong_to_the_hash(tmp_path):
 
 def test_virtual_experiments_have_specimens_that_are_alike():
     assert twin_campaign((1, 3)).specimens == Specimens("none")
+
+
+@pytest.mark.parametrize("scatter", [None, 0.03, ["tau", 0.03]])
+def test_a_scatter_that_is_neither_word_nor_table_is_refused(scatter):
+    with pytest.raises(InputError, match="expected 'estimate', 'none' or a table"):
+        Specimens(scatter)

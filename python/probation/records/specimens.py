@@ -45,6 +45,11 @@ class Specimens:
                     f"standard deviations; {suggestion(self.scatter, WAYS)}"
                 )
             return
+        if not isinstance(self.scatter, Mapping):
+            raise InputError(
+                f"specimens: found scatter = {self.scatter!r}, expected 'estimate', 'none' or a table of standard "
+                "deviations, as in {'tau': 0.03}"
+            )
         for name, value in self.scatter.items():
             if name not in DEVIATIONS:
                 raise InputError(f"specimens.scatter: found {quoted(name)}; {suggestion(name, DEVIATIONS)}")
