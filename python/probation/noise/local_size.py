@@ -13,6 +13,8 @@ from probation.noise.regions import runs
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from probation._arrays import FloatArray
 
 MEDIAN_OF_NORMAL = 0.6745
@@ -43,18 +45,27 @@ def bursts(noise: FloatArray) -> FloatArray | None:
         return None
     rough = np.pad(rough, 1, mode="edge")
     size = np.ones(len(noise))
-    for width in NOISE.burst_windows:
-        left = np.cbrt(_left_in_windows(noise, width))
-        usual = float(np.median(left))
-        scatter = float(np.median(np.abs(left - usual))) / MEDIAN_OF_NORMAL
-        loud = left > max(usual + NOISE.burst_errors * scatter, usual * NOISE.burst_ratio ** (2.0 / 3.0))
-        for starts in runs(loud):
-            # A window is loud once a third of it lies in the burst.
-            burst = slice(starts.start + width // 3, starts.stop - 1 + width - width // 3)
-            ratio = float(np.median(rough[burst])) / typical
-            if ratio > NOISE.burst_ratio:
-                size[burst] = np.maximum(size[burst], ratio)
-    return size if np.any(size > 1.0) else None
+    roots = [np.cbrt(_left_in_windows(noise, width)) for width in NOISE.burst_windows]
+    for errors in (NOISE.burst_errors, NOISE.further_burst_errors):
+        for root, width in zip(roots, NOISE.burst_windows, strict=True):
+            for burst in _loud(root, width, errors):
+                ratio = float(np.median(rough[burst])) / typical
+                if ratio > NOISE.burst_ratio:
+                    size[burst] = np.maximum(size[burst], ratio)
+        if not 0.0 < np.mean(size > 1.0) <= NOISE.most_in_bursts:
+            return None
+    return size
+
+
+def _loud(root: FloatArray, width: int, errors: float) -> Iterator[slice]:
+    """Samples of the windows that are so many standard deviations above the usual one, (n - width + 1,)."""
+    usual = float(np.median(root))
+    scatter = float(np.median(np.abs(root - usual))) / MEDIAN_OF_NORMAL
+    for starts in runs(root > max(usual + errors * scatter, usual * NOISE.burst_ratio ** (2.0 / 3.0))):
+        loudest = starts.start + int(np.argmax(root[starts]))
+        # A window is loud once a third of it lies in the burst; the loudest is all in it.
+        begin = min(starts.start + width // 3, loudest)
+        yield slice(begin, max(starts.stop - 1 + width - width // 3, loudest + width))
 
 
 def _left_in_windows(noise: FloatArray, width: int) -> FloatArray:

@@ -186,6 +186,9 @@ class EvidenceSettings:
         0.01, "probability", "Probability from which on an effect is listed that is not in the best explanation."
     )
     negligible_form_error: float = chosen(1e-3, "-", "Mean relative error of a form below which it is taken for exact.")
+    samples_of_a_short_signal: float = chosen(
+        40.0, "samples", "An effect that acts within fewer independent samples is judged by the noise around it."
+    )
     least_p_value: float = chosen(1e-12, "probability", "Smaller p-values are reported as this.")
     held_out_draws: int = chosen(
         400,

@@ -103,9 +103,15 @@ class NoiseSettings:
         "samples",
         "Windows in which a burst is looked for: it shows from half a window on, above what two lines leave.",
     )
-    burst_ratio: float = chosen(1.9, "-", "A burst has so many times the noise of the record.")
+    burst_ratio: float = chosen(1.6, "-", "A burst has so many times the noise of the record.")
     burst_errors: float = chosen(
         4.5, "standard deviations", "A burst is so many deviations above the usual window, by cube roots of squares."
+    )
+    most_in_bursts: float = chosen(
+        0.25, "record", "Noise that is larger in more than this part of a record does not come in bursts."
+    )
+    further_burst_errors: float = chosen(
+        3.0, "standard deviations", "A further burst of a record in which there is one is so many above."
     )
     agreement_level: float = chosen(
         0.001,
