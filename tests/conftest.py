@@ -13,9 +13,14 @@ LONG = {
     "test_diagnose_large_faults.py",
     "test_diagnose_measured.py",
     "test_diagnose_outside.py",
+    "test_diagnosis_calibration_check.py",
+    "test_diagnosis_held_out.py",
+    "test_diagnosis_paper.py",
     "test_diagnosis_search.py",
     "test_diagnosis_unknown.py",
     "test_one_answer.py",
+    "test_pages_in_a_browser.py",
+    "test_short_signals.py",
 }
 """Files of whole diagnoses. A tracer takes a fifth of their time, and short tests reach the same lines."""
 
