@@ -11,15 +11,16 @@ from campaigns.few_records import LAW, NOISE, few_records
 from probation.inference.short_signals import lost_to_local_noise
 
 
-def refit_of(signal, residual, amplitude):
-    """What the formula takes of a refit: one cause of one parameter, whose amplitude it has fitted."""
+def refit_of(signal, residual, amplitude, instant="instant_of_record"):
+    """What the formula takes of a refit: one cause, an amplitude and an instant."""
+    parameters = (SimpleNamespace(name="slip_strain"), SimpleNamespace(name=instant))
     return SimpleNamespace(
-        model=SimpleNamespace(base_count=0, causes=[SimpleNamespace(form=SimpleNamespace(parameters=(None,)))]),
-        jacobian=signal[:, None],
+        model=SimpleNamespace(base_count=0, causes=[SimpleNamespace(form=SimpleNamespace(parameters=parameters))]),
+        jacobian=np.column_stack([signal, 0.0 * signal]),
         residual=residual,
         problem=SimpleNamespace(whitener=SimpleNamespace(slices=[slice(0, len(residual))])),
         coordinates=SimpleNamespace(of=lambda parameters: parameters),
-        parameters=np.array([amplitude]),
+        parameters=np.array([amplitude, 0.5]),
     )
 
 
@@ -31,7 +32,7 @@ def test_ten_standard_errors_in_noise_three_times_as_large_are_three():
     for seed in range(200):
         residual = np.random.default_rng(seed).standard_normal(400)
         residual[170:230] *= 3.0
-        lost.append(lost_to_local_noise(refit_of(signal, residual, 10.0), np.array([[1.0]])))
+        lost.append(lost_to_local_noise(refit_of(signal, residual, 10.0), np.eye(2)))
     assert np.mean(lost) == pytest.approx(43.3, rel=0.05)
 
 
@@ -39,19 +40,28 @@ def test_in_the_usual_noise_hardly_anything_is_lost():
     signal = np.zeros(400)
     signal[180:220] = 1.0 / np.sqrt(40.0)
     noises = [np.random.default_rng(seed).standard_normal(400) for seed in range(200)]
-    lost = [lost_to_local_noise(refit_of(signal, noise, 10.0), np.array([[1.0]])) for noise in noises]
+    lost = [lost_to_local_noise(refit_of(signal, noise, 10.0), np.eye(2)) for noise in noises]
     assert np.mean(lost) < 0.15 * 50.0
 
 
 def test_what_acts_all_along_loses_nothing():
     signal, residual = np.full(400, 0.05), 3.0 * np.random.default_rng(1).standard_normal(400)
-    assert lost_to_local_noise(refit_of(signal, residual, 10.0), np.array([[1.0]])) == 0.0
+    assert lost_to_local_noise(refit_of(signal, residual, 10.0), np.eye(2)) == 0.0
+
+
+def test_what_has_no_instant_of_its_own_loses_nothing():
+    """A lag shows at the jumps of the rate: what is rough there may be the law's error."""
+    signal, residual = np.zeros(400), np.ones(400)
+    signal[180:220] = 1.0 / np.sqrt(40.0)
+    residual[170:230] *= 3.0 * np.tile([1.0, -1.0], 30)
+    assert lost_to_local_noise(refit_of(signal, residual, 10.0), np.eye(2)) > 10.0
+    assert lost_to_local_noise(refit_of(signal, residual, 10.0, instant="lag_s"), np.eye(2)) == 0.0
 
 
 def test_an_amplitude_at_its_bound_loses_nothing():
     signal = np.zeros(400)
     signal[200] = 1.0
-    assert lost_to_local_noise(refit_of(signal, np.ones(400), 0.0), np.array([[0.0]])) == 0.0
+    assert lost_to_local_noise(refit_of(signal, np.ones(400), 0.0), np.zeros((2, 2))) == 0.0
 
 
 def with_bursts(campaign, seed):

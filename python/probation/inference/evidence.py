@@ -13,8 +13,8 @@ the relative error of a form. B are smooth waves over every record, H slow noise
 lambda_r what the explanation does to record r, v the spectrum of smooth curves. s is a quarter as large, in F and in D,
 for a fault of the rig. s is integrated out, so that a form that is right is not charged for a freedom that it does not
 need. "Unknown" has nothing but a discrepancy of any size, of several kinds (`inference.unknown`; Kennedy & O'Hagan
-2001; docs/diagnosis-method.md, sections 4 and 7). What acts within a few samples is judged by the noise around it
-(`inference.short_signals`).
+2001; docs/diagnosis-method.md, sections 4 and 7). What acts within a few samples, at an instant of its own, is
+judged by the noise around it (`inference.short_signals`).
 """
 
 from __future__ import annotations

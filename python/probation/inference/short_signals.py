@@ -1,6 +1,6 @@
-"""What an explanation that acts within a few samples loses where the noise is larger than elsewhere.
+"""What an explanation that acts at an instant of its own loses where the noise is larger than elsewhere.
 
-A step is sought along the whole record, so it is found where the noise is largest: in a burst that the noise model has
+A slip is sought along the whole record, so it is found where the noise is largest: in a burst that the noise model has
 missed. There the noise has v times the variance that whitening takes it to have, and an amplitude of t standard errors
 is one of t / sqrt(v). By the ratio of Savage and Dickey (Dickey 1971) the evidence for it is then smaller by
 
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.effects.instants import INSTANT
 from probation.noise.local_noise import local_noise_sd, samples_within
 from probation.settings.evidence import EVIDENCE
 
@@ -34,6 +35,8 @@ def lost_to_local_noise(refit: Refit, covariance: FloatArray) -> float:
     lost = 0.0
     for cause in refit.model.causes:
         amplitude, at = at, at + len(cause.form.parameters)
+        if all(parameter.name != INSTANT.name for parameter in cause.form.parameters):
+            continue
         signal = refit.jacobian[:, [amplitude]]
         size, variance = float(np.linalg.norm(signal)), float(covariance[amplitude, amplitude])
         if size == 0.0 or variance <= 0.0:

@@ -187,7 +187,9 @@ class EvidenceSettings:
     )
     negligible_form_error: float = chosen(1e-3, "-", "Mean relative error of a form below which it is taken for exact.")
     samples_of_a_short_signal: float = chosen(
-        40.0, "samples", "An effect that acts within fewer independent samples is judged by the noise around it."
+        40.0,
+        "samples",
+        "What acts at an instant of its own, within fewer independent samples, is judged by the noise there.",
     )
     least_p_value: float = chosen(1e-12, "probability", "Smaller p-values are reported as this.")
     held_out_draws: int = chosen(
