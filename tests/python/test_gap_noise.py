@@ -121,7 +121,7 @@ def test_white_noise_has_hardly_ever_a_burst():
     assert np.mean([_loudest(rng(seed).standard_normal(400)) > 1.0 for seed in range(300)]) < 0.03
 
 
-@pytest.mark.parametrize("shape", ["step", "kink", "outlier", "decay"])
+@pytest.mark.parametrize("shape", ["step", "kink", "outlier", "decay", "fast decay"])
 def test_what_a_law_may_miss_at_an_instant_is_no_burst(shape):
     """All of 15 standard deviations of the noise within some samples; a burst would hide it."""
     since = np.arange(400) - 200.0
@@ -129,7 +129,8 @@ def test_what_a_law_may_miss_at_an_instant_is_no_burst(shape):
         "step": 15.0 * (since >= 0),
         "kink": 15.0 * np.maximum(1.0 - np.abs(since) / 20.0, 0.0),
         "outlier": 15.0 * (since == 0),
-        "decay": 15.0 * (since >= 0) * np.exp(-since / 8.0),
+        "decay": 15.0 * (since >= 0) * np.exp(-np.maximum(since, 0.0) / 8.0),
+        "fast decay": 30.0 * (since >= 0) * np.exp(-np.maximum(since, 0.0) / 3.0),
     }[shape]
     bursts = [_loudest(rng(seed).standard_normal(400) + missed) > 1.0 for seed in range(100)]
     assert np.mean(bursts) < 0.08

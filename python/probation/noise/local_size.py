@@ -34,9 +34,9 @@ def local_size(noise: FloatArray) -> FloatArray | None:
 
 
 def bursts(noise: FloatArray) -> FloatArray | None:
-    """As `local_size`, by what two straight lines, or a line and an outlier, leave in short windows.
+    """As `local_size`, by what the best of some simple curves leaves in short windows.
 
-    A step or a kink leaves nothing there. The cube root of a sum of squares is close to normal (Wilson and Hilferty
+    A step, a kink, an outlier, or a step that fades, leaves nothing there. The cube root of a sum of squares is close to normal (Wilson and Hilferty
     1931).
     """
     rough = np.abs(np.diff(noise, 2))
@@ -78,13 +78,18 @@ def _left_in_windows(noise: FloatArray, width: int) -> FloatArray:
 
 @cache
 def _window_fits(width: int) -> tuple[FloatArray, ...]:
-    """Orthonormal bases of two straight lines that meet nowhere, and of a line and an outlier, at every sample."""
+    """Orthonormal bases, at every sample: two lines that meet nowhere, a line and an outlier, a line and what fades."""
     sample = np.arange(width, dtype=np.float64)
     line = [np.ones(width), sample - sample.mean()]
-    after = [(sample >= place).astype(np.float64) for place in range(2, width - 1)]
-    lines = [[*line, step, step * (sample - place)] for place, step in enumerate(after, start=2)]
     outliers = [[*line, np.eye(width)[place]] for place in range(width)]
-    return tuple(np.linalg.qr(np.column_stack(columns))[0] for columns in lines + outliers)
+    lines, fading = [], []
+    for place in range(1, width - 1):
+        since = sample - place
+        after = (since >= 0.0).astype(np.float64)
+        if 1 < place:
+            lines.append([*line, after, after * since])
+        fading += [[*line, after, after * np.exp(-np.maximum(since, 0.0) / time)] for time in NOISE.fading_samples]
+    return tuple(np.linalg.qr(np.column_stack(columns))[0] for columns in lines + outliers + fading)
 
 
 def _followed(noise: FloatArray) -> FloatArray | None:

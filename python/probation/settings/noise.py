@@ -103,6 +103,9 @@ class NoiseSettings:
         "samples",
         "Windows in which a burst is looked for: it shows from half a window on, above what two lines leave.",
     )
+    fading_samples: tuple[float, ...] = chosen(
+        (2.0, 5.0), "samples", "Time constants of what fades after a step: a slip whose stress comes back is no burst."
+    )
     burst_ratio: float = chosen(1.6, "-", "A burst has so many times the noise of the record.")
     burst_errors: float = chosen(
         4.5, "standard deviations", "A burst is so many deviations above the usual window, by cube roots of squares."
