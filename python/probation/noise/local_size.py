@@ -36,8 +36,8 @@ def local_size(noise: FloatArray) -> FloatArray | None:
 def bursts(noise: FloatArray) -> FloatArray | None:
     """As `local_size`, by what the best of some simple curves leaves in short windows.
 
-    A step, a kink, an outlier, or a step that fades, leaves nothing there. The cube root of a sum of squares is close to normal (Wilson and Hilferty
-    1931).
+    A step, a kink, an outlier, or a step that fades, leaves nothing there. The cube root of a sum of squares is close
+    to normal (Wilson and Hilferty 1931).
     """
     rough = np.abs(np.diff(noise, 2))
     typical = float(np.median(rough)) if len(rough) else 0.0
@@ -86,7 +86,7 @@ def _window_fits(width: int) -> tuple[FloatArray, ...]:
     for place in range(1, width - 1):
         since = sample - place
         after = (since >= 0.0).astype(np.float64)
-        if 1 < place:
+        if place > 1:
             lines.append([*line, after, after * since])
         fading += [[*line, after, after * np.exp(-np.maximum(since, 0.0) / time)] for time in NOISE.fading_samples]
     return tuple(np.linalg.qr(np.column_stack(columns))[0] for columns in lines + outliers + fading)
