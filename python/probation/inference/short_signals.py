@@ -4,7 +4,9 @@ A slip is sought along the whole record, so it is found where the noise is large
 missed. There the noise has v times the variance that whitening takes it to have, and an amplitude of t standard errors
 is one of t / sqrt(v). By the ratio of Savage and Dickey (Dickey 1971) the evidence for it is then smaller by
 
-    t^2 (1 - 1/v) / 2 - ln(v) / 2.
+    t^2 (1 - 1/v) / 2 - ln(v) / 2,
+
+and by v ln(n) at most, n the number of samples: in a burst chance reaches t^2 = 2 v ln(n), and no more.
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.instants import INSTANT
-from probation.noise.local_noise import local_noise_sd, samples_within
+from probation.noise.local_noise import median_local_variance, samples_within
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
@@ -41,10 +43,11 @@ def lost_to_local_noise(refit: Refit, covariance: FloatArray) -> float:
         size, variance = float(np.linalg.norm(signal)), float(covariance[amplitude, amplitude])
         if size == 0.0 or variance <= 0.0:
             continue
-        unit = signal / size
-        if samples_within(unit)[0] > EVIDENCE.samples_of_a_short_signal:
+        if samples_within(signal / size)[0] > EVIDENCE.samples_of_a_short_signal:
             continue
-        noise = float(local_noise_sd(unit, refit.residual, refit.problem.whitener.slices)[0]) ** 2
+        around = median_local_variance(signal[:, 0] / size, refit.residual, refit.problem.whitener.slices)
+        noise = min(max(around, 1.0), EVIDENCE.largest_local_variance)
         square = float(refit.coordinates.of(refit.parameters)[amplitude]) ** 2 / variance
-        lost += max(0.5 * square * (1.0 - 1.0 / noise) - 0.5 * float(np.log(noise)), 0.0)
+        by_ratio = 0.5 * square * (1.0 - 1.0 / noise) - 0.5 * float(np.log(noise))
+        lost += max(min(by_ratio, noise * float(np.log(len(refit.residual)))), 0.0)
     return lost

@@ -191,6 +191,7 @@ class EvidenceSettings:
         "samples",
         "What acts at an instant of its own, within fewer independent samples, is judged by the noise there.",
     )
+    largest_local_variance: float = chosen(25.0, "-", "A burst has at most so many times the variance of the noise.")
     least_p_value: float = chosen(1e-12, "probability", "Smaller p-values are reported as this.")
     held_out_draws: int = chosen(
         400,
