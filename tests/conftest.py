@@ -20,7 +20,6 @@ LONG = {
     "test_diagnosis_unknown.py",
     "test_one_answer.py",
     "test_pages_in_a_browser.py",
-    "test_short_signals.py",
 }
 """Files of whole diagnoses. A tracer takes a fifth of their time, and short tests reach the same lines."""
 

@@ -13,7 +13,7 @@ from probation.inference.model import CampaignModel
 from probation.inference.own_force import OwnForce
 
 LAW = probation.Law(unrelaxed_modulus=2000.0, tau_max=6.0, hardening_modulus=2.5)
-NOISE, SAMPLES, ELONGATION = 0.04, 240, 0.42
+NOISE, SAMPLES, ELONGATION = 0.04, 400, 0.42
 TESTS = {"ramp1": 0.002, "ramp2": 0.01, "grip1": 0.005, "grip2": 0.02}
 
 

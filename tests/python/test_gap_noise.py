@@ -11,7 +11,6 @@ from campaigns import gap_noise
 from probation import InputError
 from probation.noise.arma import Arma, Periodogram, fit_arma
 from probation.noise.estimate import estimate_noise
-from probation.noise.local_size import local_size
 from probation.noise.outliers import find_outliers
 from probation.noise.quantisation import quantisation_step
 from probation.noise.smooth_basis import waves
@@ -99,58 +98,11 @@ def test_a_burst_is_given_its_own_size():
     assert 2.5 < noise.profile[415:435].mean() / np.median(noise.profile) < 7
 
 
-def _loudest(noise):
-    """Largest size along the record over the usual one, 1 if it is the same all along."""
-    size = local_size(noise)
-    return 1.0 if size is None else float(np.max(size) / np.median(size))
-
-
-def test_a_burst_of_eight_samples_is_given_its_own_size():
-    """Five times the noise: a discharge, a slipping belt. A slip in the grips would explain it at a price."""
-    sizes = []
-    for seed in range(60):
-        noise = rng(seed).standard_normal(400)
-        noise[200:208] *= 5.0
-        size = local_size(noise)
-        sizes.append(1.0 if size is None else float(np.median(size[200:208])))
-    assert np.mean(np.array(sizes) > 1.9) > 0.75
-    assert 3.0 < np.median(sizes) < 7.0
-
-
-def test_white_noise_has_hardly_ever_a_burst():
-    assert np.mean([_loudest(rng(seed).standard_normal(400)) > 1.0 for seed in range(300)]) < 0.03
-
-
-@pytest.mark.parametrize("shape", ["step", "kink", "outlier", "decay", "fast decay"])
-def test_what_a_law_may_miss_at_an_instant_is_no_burst(shape):
-    """All of 15 standard deviations of the noise within some samples; a burst would hide it."""
-    since = np.arange(400) - 200.0
-    missed = {
-        "step": 15.0 * (since >= 0),
-        "kink": 15.0 * np.maximum(1.0 - np.abs(since) / 20.0, 0.0),
-        "outlier": 15.0 * (since == 0),
-        "decay": 15.0 * (since >= 0) * np.exp(-np.maximum(since, 0.0) / 8.0),
-        "fast decay": 30.0 * (since >= 0) * np.exp(-np.maximum(since, 0.0) / 3.0),
-    }[shape]
-    bursts = [_loudest(rng(seed).standard_normal(400) + missed) > 1.0 for seed in range(100)]
-    assert np.mean(bursts) < 0.08
-
-
 def test_rounding_is_seen_in_the_data_and_counts_as_noise():
     """A step of 0.08 MPa on noise of 0.04: sqrt(0.04^2 + 0.08^2/12) = 0.0462 MPa, more where the stress stands."""
     noises = estimate_noise(gap_noise.records("digits", rng(5)))
     assert [noise.quantum for noise in noises] == pytest.approx([0.08] * 6)
     assert np.median([noise.sigma for noise in noises]) == pytest.approx(0.0462, rel=0.12)
-
-
-def test_a_burst_shows_in_coarse_readings_that_feign_none():
-    """Readings of two standard deviations of the noise; a burst of five times the noise over twelve samples."""
-    records = gap_noise.records("digits", rng(5))
-    burst = records[2].residual.copy()
-    burst[600:612] += 5 * gap_noise.SIGMA * rng(6).standard_normal(12)
-    noises = estimate_noise([*records[:2], replace(records[2], residual=burst), *records[3:]])
-    assert [noise.growth for noise in noises] == ["constant", "constant", "local", *["constant"] * 3]
-    assert np.argmax(noises[2].profile) in range(595, 617)
 
 
 def test_no_grid_is_seen_where_there_is_none():

@@ -13,8 +13,7 @@ the relative error of a form. B are smooth waves over every record, H slow noise
 lambda_r what the explanation does to record r, v the spectrum of smooth curves. s is a quarter as large, in F and in D,
 for a fault of the rig. s is integrated out, so that a form that is right is not charged for a freedom that it does not
 need. "Unknown" has nothing but a discrepancy of any size, of several kinds (`inference.unknown`; Kennedy & O'Hagan
-2001; docs/diagnosis-method.md, sections 4 and 7). What acts within a few samples, at an instant of its own, is
-judged by the noise around it (`inference.short_signals`).
+2001; docs/diagnosis-method.md, sections 4 and 7).
 """
 
 from __future__ import annotations
@@ -27,7 +26,6 @@ from scipy.special import logsumexp
 
 from probation.inference.form_error import form_size
 from probation.inference.laplace import Linearised
-from probation.inference.short_signals import lost_to_local_noise
 from probation.inference.unknown import log_evidence_of_unknown
 from probation.noise.span import span_of, without
 from probation.settings.evidence import EVIDENCE
@@ -119,5 +117,4 @@ def evidence(
         if unknown
         else -np.inf
     )
-    lost = lost_to_local_noise(found, covariance)
-    return Evidence(together - lost, form_error, with_unknown - lost, covariance, exact - lost)
+    return Evidence(together, form_error, with_unknown, covariance, exact)

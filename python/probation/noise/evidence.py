@@ -69,7 +69,7 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
     if record.measured is not None and quantum == 0.0:
         quantum = quantisation_step(record.measured * np.exp(-record.true_strain))  # the force was read, not the stress
     white = max(white, quantisation_noise(quantum))
-    step = quantum / white if white > 0.0 else 0.0
+    coarse = quantum > NOISE.coarse_step * white
     nothing = NoiseEvidence(
         record, outliers, white, quantum, "constant", np.ones(count), None, None, "robust differences: a short record"
     )
@@ -81,15 +81,15 @@ def noise_evidence(record: RecordResidual) -> NoiseEvidence:
         return nothing
     if record.replicate is not None:
         values = without_outliers(record.replicate, find_outliers(record.replicate))
-        growth, profile = growth_of(record, values, step)
+        growth, profile = growth_of(record, values, coarse)
         whole = _whole(values, waves(count, 2), 2, profile)
         return replace(nothing, growth=growth, profile=profile, rough=whole, source="the difference from its repeat")
     quiet = [part for part in record.quiet if len(range(*part.indices(count))) >= NOISE.shortest_segment]
     if quiet and sum(len(range(*part.indices(count))) for part in quiet) >= NOISE.quiet_samples:
-        growth, profile = growth_of(record, residual, step, bursts_alone=True)
-        rough = _rough([residual[part] for part in quiet], [profile[part] for part in quiet], degree=3, robust=False)
-        return replace(nothing, growth=growth, profile=profile, rough=rough, source="dwells and pre-load")
-    growth, profile = growth_of(record, residual, step)
+        segments = [residual[part] for part in quiet]
+        rough = _rough(segments, [np.ones(len(part)) for part in segments], degree=3, robust=False)
+        return replace(nothing, rough=rough, source="dwells and pre-load")
+    growth, profile = growth_of(record, residual, coarse)
     rough = _rough(
         in_segments(residual, record.jumps), in_segments(profile, record.jumps), NOISE.segment_degree, robust=True
     )
@@ -107,8 +107,8 @@ def _rough(segments: list[FloatArray], profiles: list[FloatArray], degree: int, 
     """Cosine coefficients of the segments, polynomials projected out; segments with a transient left out."""
     rows: list[tuple[FloatArray, FloatArray, FloatArray]] = []
     for values, profile in zip(segments, profiles, strict=True):
-        periodogram = _whole(values, legendre(len(values), degree), degree + 1, profile)
-        rows.append((periodogram.frequency, periodogram.power, periodogram.weight))
+        each = _whole(values, legendre(len(values), degree), degree + 1, profile)
+        rows.append((each.frequency, each.power, each.weight))
     if not rows:
         return None
     if robust and len(rows) >= 3:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
-from probation.noise.local_size import bursts, local_size
+from probation.noise.local_size import local_size
 from probation.noise.segments import leftover
 from probation.settings.noise import NOISE
 
@@ -17,27 +17,16 @@ if TYPE_CHECKING:
     from probation.noise.record_residual import RecordResidual
 
 
-def growth_of(
-    record: RecordResidual, residual: FloatArray, step: float, *, bursts_alone: bool = False
-) -> tuple[Growth, FloatArray]:
+def growth_of(record: RecordResidual, residual: FloatArray, coarse: bool) -> tuple[Growth, FloatArray]:
     """How the size of the noise changes along a record.
 
     The size of neighbouring differences is regressed on the strain: a slope near 1 is constant force noise on a
     shrinking section. What then still comes in bursts is followed by a moving mean, drawn towards 1 by as much as
     chance would move it.
-
-    Parameters
-    ----------
-    step : float
-        Step of the readings in standard deviations of the noise: coarse readings show bursts alone, very coarse ones
-        nothing.
-    bursts_alone : bool
-        Where the level is that of the dwells.
     """
     count = len(residual)
-    if step > NOISE.coarsest_step:
+    if coarse:
         return "constant", np.ones(count)
-    bursts_alone = bursts_alone or step > NOISE.coarse_step
     left = leftover(residual, record.jumps)
     # Second differences see no transient of the model; a correlated noise keeps its size in them.
     size = np.abs(np.convolve(left, [1.0, -2.0, 1.0], mode="same"))
@@ -49,14 +38,14 @@ def growth_of(
     spread = float(strain @ strain)
     growth: Growth = "constant"
     profile = np.ones(count)
-    if spread > 0.0 and not bursts_alone:
+    if spread > 0.0:
         logs = np.log(size)
         slope = float(strain @ logs) / spread
         error = float(np.std(logs - logs.mean() - slope * strain)) * np.sqrt(NOISE.growth_memory / spread)
         if slope > NOISE.force_slope and slope > NOISE.force_slope_errors * error:
             growth, profile = "force", np.exp(record.true_strain)
     profile = profile / np.sqrt(np.mean(profile**2))
-    local = bursts(left) if bursts_alone else local_size(left / profile)
+    local = local_size(left / profile)
     if local is not None:
         profile, growth = profile * local, "local"
     return growth, profile / np.sqrt(np.mean(profile**2))

@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.noise.local_size import MEDIAN_OF_NORMAL
-
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -54,25 +52,3 @@ def local_noise_sd(directions: FloatArray, residual: FloatArray, slices: Sequenc
         weight += square.sum(axis=0)
     variance = np.divide(power, weight, out=np.ones_like(power), where=weight > 0.0)
     return np.asarray(np.sqrt(np.maximum(variance, 1.0)), dtype=np.float64)
-
-
-def median_local_variance(unit: FloatArray, residual: FloatArray, slices: Sequence[slice]) -> float:
-    """Variance of the rough part of a whitened residual under a signal that a refit has fitted, by a weighted median.
-
-    What is rough at a sample or two, where an instant is not exact, has no say.
-
-    Parameters
-    ----------
-    unit : ndarray, shape (N,)
-        Unit signal.
-    residual : ndarray, shape (N,)
-        Whitened.
-    slices : sequence of slice
-        Rows of each record.
-    """
-    rough = np.concatenate([np.abs(np.diff(residual[part], 2)) / np.sqrt(6.0) for part in slices])
-    weight = np.concatenate([unit[part][1:-1] ** 2 for part in slices])
-    order = np.argsort(rough)
-    share = np.cumsum(weight[order])
-    middle = float(rough[order][np.searchsorted(share, 0.5 * share[-1])])
-    return (middle / MEDIAN_OF_NORMAL) ** 2

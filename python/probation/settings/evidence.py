@@ -186,12 +186,6 @@ class EvidenceSettings:
         0.01, "probability", "Probability from which on an effect is listed that is not in the best explanation."
     )
     negligible_form_error: float = chosen(1e-3, "-", "Mean relative error of a form below which it is taken for exact.")
-    samples_of_a_short_signal: float = chosen(
-        40.0,
-        "samples",
-        "What acts at an instant of its own, within fewer independent samples, is judged by the noise there.",
-    )
-    largest_local_variance: float = chosen(25.0, "-", "A burst has at most so many times the variance of the noise.")
     least_p_value: float = chosen(1e-12, "probability", "Smaller p-values are reported as this.")
     held_out_draws: int = chosen(
         400,

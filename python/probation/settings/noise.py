@@ -89,32 +89,20 @@ class NoiseSettings:
     coarse_step: float = chosen(
         1.2, "noise", "Readings whose step is this many standard deviations of the noise say nothing of how it grows."
     )
-    coarsest_step: float = chosen(
-        2.5, "noise", "Readings whose step is this many standard deviations of the noise feign bursts themselves."
-    )
     clustered_size: float = chosen(
         4.0,
         "standard errors",
         "Autocorrelation of the noise's size, in standard errors, from which on it is followed all along.",
     )
     size_window: int = chosen(31, "samples", "Samples over which it is followed.")
-    burst_windows: tuple[int, ...] = chosen(
-        (9, 17),
+    shortest_burst: int = chosen(
+        15,
         "samples",
-        "Windows in which a burst is looked for: it shows from half a window on, above what two lines leave.",
+        "Samples of the shortest burst that is looked for: so many median sizes say what a step or an outlier cannot.",
     )
-    fading_samples: tuple[float, ...] = chosen(
-        (2.0, 5.0), "samples", "Time constants of what fades after a step: a slip whose stress comes back is no burst."
-    )
-    burst_ratio: float = chosen(1.6, "-", "A burst has so many times the noise of the record.")
+    burst_ratio: float = chosen(1.9, "-", "A burst has so many times the noise of the record.")
     burst_errors: float = chosen(
-        4.5, "standard deviations", "A burst is so many deviations above the usual window, by cube roots of squares."
-    )
-    most_in_bursts: float = chosen(
-        0.25, "record", "Noise that is larger in more than this part of a record does not come in bursts."
-    )
-    further_burst_errors: float = chosen(
-        3.0, "standard deviations", "A further burst of a record in which there is one is so many above."
+        3.5, "standard deviations", "A burst is so many deviations above the scatter of its windows."
     )
     agreement_level: float = chosen(
         0.001,
