@@ -106,6 +106,32 @@ inline void form_cell(const Modes& modes, const ScaleCell& cell, double* rows) {
   }
 }
 
+/// Whether the cells between the lowest and the highest of these scales need no more exponentials than the
+/// steps themselves.
+inline bool table_pays(const double* scale, int count) {
+  double lowest = scale[0], highest = scale[0];
+  const auto take = [&](double low, double high) {
+    lowest = low < lowest ? low : lowest;
+    highest = high > highest ? high : highest;
+  };
+  int n = 0;
+  if (count >= lanes) {
+    Vector low = load(scale), high = low;
+    for (; n + lanes <= count; n += lanes) {
+      const Vector here = load(scale + n);
+      low = choose(here < low, here, low);
+      high = choose(here > high, here, high);
+    }
+    double lows[lanes], highs[lanes];
+    store(lows, low);
+    store(highs, high);
+    for (int lane = 0; lane < lanes; ++lane) take(lows[lane], highs[lane]);
+  }
+  for (; n < count; ++n) take(scale[n], scale[n]);
+  const std::int64_t first = ScaleCell::index_of(lowest), last = ScaleCell::index_of(highest);
+  return first >= 0 && last >= 0 && (last - first + 1) * ScaleTable::terms <= count;
+}
+
 /// Consecutive steps and their places in the table, as many as its slots hold together.
 struct TabledSteps {
   static constexpr int most = 256;
@@ -115,9 +141,10 @@ struct TabledSteps {
   double offset[most];
   const double* rows[most];
 
-  /// The table pays where a cell has as many steps as terms, on average. Cells that are already filled do not
-  /// count: the two ways differ in the last digits, and an answer must depend on its input alone.
-  TabledSteps(const Modes& modes, const double* scale, int available) {
+  /// The table pays where a cell has as many steps as terms, on average: among these steps, or in the record
+  /// (`pays_for_all`). Cells that are already filled do not count: the two ways differ in the last digits,
+  /// and an answer must depend on its input alone.
+  TabledSteps(const Modes& modes, const double* scale, int available, bool pays_for_all) {
     ScaleTable& kept = *modes.table;
     const auto stride = static_cast<std::ptrdiff_t>(modes.padded) * ScaleTable::terms;
     std::int64_t wanted[ScaleTable::slots];
@@ -146,7 +173,7 @@ struct TabledSteps {
       lowest = here < lowest ? here : lowest;
       highest = here > highest ? here : highest;
     }
-    if (cells * ScaleTable::terms > count) {
+    if (!pays_for_all && cells * ScaleTable::terms > count) {
       count = 0;
       return;
     }

@@ -155,10 +155,11 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress, c
                        double* scratch) {
   const int last = steps.count - 1;
   const Steps most = part_of(steps, 0, last);
+  const bool pays_for_all = modes.table && last > 0 && table_pays(steps.scale, last);
   in_runs(most, TabledSteps::most, stress, d,
           [&](const Steps& part, const TangentDirection& there, double* stress_there) {
             if (modes.table) {
-              const TabledSteps tabled(modes, part.scale, part.count);
+              const TabledSteps tabled(modes, part.scale, part.count, pays_for_all);
               if (tabled.count > 0) {
                 tabled_sweep(modes, part_of(part, 0, tabled.count), tabled, stress_there, there);
                 return tabled.count;
