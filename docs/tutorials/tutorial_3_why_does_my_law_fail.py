@@ -108,8 +108,8 @@ print(diagnosis.headline)
 # ------
 #
 # One strip for each record, from its start to its end. Colour is the distance of the model from
-# the record in standard deviations of noise (where specimens differ, of noise and scatter):
-# pale is noise, blue means that the model is too low, orange that it is too high. The thin
+# the record in standard deviations of noise, once each specimen has its own deviations: pale is
+# noise, blue means that the model is too low, orange that it is too high. The thin
 # strip below each is what remains with the best explanation. Frames mark the places of the gap,
 # with the share of the squared gap that lies in each.
 

@@ -126,14 +126,14 @@ def _predicted(explained: OnAllRecords, before: dict[str, FloatArray], skipping:
 
 
 def _without_specimens(base: BaseFit, predicted: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
-    """Predictions by record [MPa] as they are once each specimen of an identify record has its own deviations."""
-    noises, views = base.whitened.noises, base.model.views
-    residuals = [
-        without_outliers(predicted[view.id] - view.data, noise.outliers)
-        for view, noise in zip(views, noises, strict=True)
-    ]
-    own = {view.id: part for view, part in zip(views, own_deviations(residuals, noises), strict=True)}
-    return {name: values - own.get(name, 0.0) for name, values in predicted.items()}
+    """Predictions by record [MPa] as they are once each specimen has its own deviations, no larger than scatter is."""
+    data = {view.id: view.data for view in base.views}
+    corrected = dict(predicted)
+    for noises in (base.whitened.noises, base.held_out_noises):
+        residuals = [without_outliers(predicted[noise.name] - data[noise.name], noise.outliers) for noise in noises]
+        for noise, own in zip(noises, own_deviations(residuals, noises), strict=True):
+            corrected[noise.name] = predicted[noise.name] - own
+    return corrected
 
 
 def _flexible(piece: Piece, base: BaseFit, name: str) -> Piece:

@@ -60,10 +60,12 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
                 continue
             reach = max(drift.change.values()) - min(drift.change.values())
             value = abs(base.parameters[names.index(drift.parameter)])
-            text = (
-                f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to "
-                f"{percentage(reach / max(value, 1e-300))} % of its value"
+            size = (
+                f"{reach:.2g}, where all records together give {value:.2g}"
+                if reach > value
+                else f"{percentage(reach / value)} % of its value"
             )
+            text = f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to {size}"
             entries.append(Signature("parameter", None, drift.heterogeneity_p_value, text))
     return tuple(entries)
 

@@ -171,11 +171,13 @@ class BaseFit:
 
     @cached_property
     def held_out_noises(self) -> tuple[NoiseModel, ...]:
-        """The noise of the records that were not fitted, found on themselves.
+        """The noise of the records that were not fitted, found on themselves, with their specimens' scatter apart."""
+        return tuple(fitted_noises(self.held_out)) if self.held_out else ()
 
-        What their specimens may differ by is part of it: nothing of it is known before the test.
-        """
-        return tuple(noise.with_specimen_as_noise() for noise in fitted_noises(self.held_out)) if self.held_out else ()
+    @property
+    def predicted_noises(self) -> tuple[NoiseModel, ...]:
+        """The same with the scatter as noise: nothing is known of a specimen before it is tested."""
+        return tuple(noise.with_specimen_as_noise() for noise in self.held_out_noises)
 
     @cached_property
     def discrepancy(self) -> Discrepancy:

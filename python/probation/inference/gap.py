@@ -322,7 +322,7 @@ def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseM
     records = tuple(replace(record, tangent=np.zeros((len(record), root.shape[0]))) for record in base.held_out)
     noises = tuple(
         replace(noise, propagated=np.hstack([noise.propagated, record.tangent @ root]))
-        for record, noise in zip(base.held_out, base.held_out_noises, strict=True)
+        for record, noise in zip(base.held_out, base.predicted_noises, strict=True)
     )
     return records, noises
 

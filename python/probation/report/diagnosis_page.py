@@ -21,7 +21,7 @@ from probation.report.diagnosis_tables import (
     where_table,
     which_table,
 )
-from probation.report.diagnosis_words import closed, explanation_name, name_of, span_text
+from probation.report.diagnosis_words import closed, explanation_name, name_of, nowhere_text, span_text
 from probation.report.isolability_figure import isolability_figure
 from probation.report.isolability_page import HOW_TO_READ_THE_MAP
 from probation.report.isolability_table import in_words, isolability_table
@@ -65,7 +65,7 @@ def diagnosis_page(diagnosis: Diagnosis) -> Page:
 
 
 def _short(diagnosis: Diagnosis) -> Section:
-    where = "In no part of any record can a gap be distinguished from noise"
+    where = nowhere_text(diagnosis)
     if diagnosis.located:
         worst = diagnosis.located[0]
         where = (

@@ -13,6 +13,7 @@ from probation.report.diagnosis_tables import (
     where_table,
     which_table,
 )
+from probation.report.diagnosis_words import nowhere_text
 from probation.report.skipped_words import MOST as MOST_SKIPPED
 from probation.report.skipped_words import skipped_lines
 from probation.settings.certificate import CERTIFICATE
@@ -38,6 +39,8 @@ def summary(diagnosis: Diagnosis) -> str:
         parts.append(_shown(held_out_table(diagnosis), ""))
     if diagnosis.located:
         parts.append(_shown(*where_table(diagnosis, MOST)))
+    elif diagnosis.verdict != "no_gap":
+        parts.append(_sentence(f"{nowhere_text(diagnosis)}."))
     parts.append("\n".join(_sentence(line) for line in _signs(diagnosis)))
     parts.append(_shown(*which_table(diagnosis, MOST)))
     if diagnosis.verdict != "no_gap":

@@ -151,10 +151,12 @@ def shrink_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, 
         for label, closure in lines
     ]
     kept = len(rows) if most is None else min(most, len(rows))
-    headings = ("records", "before", "after", floor_name(diagnosis), "gap closed", "90 % interval")
+    headings = ("records", "before", "after", "noise", "gap closed", "90 % interval")
     mended = mended_by(diagnosis)
     by = f"with {mended}" if mended else "– no effect was added"
-    caption = f"How far the gap shrinks {by} (rms errors in MPa)"
+    allowed = diagnosis.scatter is not None and diagnosis.scatter.any
+    apart = "; what specimens may differ by is taken off" if allowed else ""
+    caption = f"How far the gap shrinks {by} (rms errors in MPa{apart})"
     return Table(headings, tuple(rows[:kept]), caption), _more(len(rows) - kept, "record")
 
 
@@ -172,11 +174,6 @@ def noise_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     kept = len(rows) if most is None else min(most, len(rows))
     headings = ("record", "noise of the stress [MPa]", "of the strain [–]")
     return Table(headings, tuple(rows[:kept]), "The noise of the records"), _more(len(rows) - kept, "record")
-
-
-def floor_name(diagnosis: Diagnosis) -> str:
-    """What no model can get below: the noise, and how far specimens differ where that is allowed for."""
-    return "noise and scatter" if diagnosis.scatter is not None and diagnosis.scatter.any else "noise"
 
 
 def next_tests_table(diagnosis: Diagnosis) -> Table:

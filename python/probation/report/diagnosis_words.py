@@ -52,6 +52,17 @@ def explanation_name(explanation: Explanation, diagnosis: Diagnosis) -> str:
     return f"{name}, in {len(explanation.records)} of {len(fitted)} records"
 
 
+def nowhere_text(diagnosis: Diagnosis) -> str:
+    """Why no part of a record is named as the place of the gap."""
+    if diagnosis.verdict == "no_gap":
+        return "In no part of any record can a gap be distinguished from noise"
+    causes = "noise and specimens that differ" if diagnosis.scatter is not None and diagnosis.scatter.any else "noise"
+    return (
+        f"No part of a record departs by more than {causes} can do there; the records as a whole depart by more than "
+        "these can do"
+    )
+
+
 def short_ids(ids: Iterable[str], longest: int = LONGEST_ID) -> dict[str, str]:
     """Record ids with the middle of long ones left out, where they still differ then."""
     every = list(ids)

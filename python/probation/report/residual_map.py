@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.patches import Rectangle
 
-from probation.report.diagnosis_tables import floor_name
 from probation.report.diagnosis_words import short_ids
 from probation.report.figures import styled_figure
 from probation.report.style import colour
@@ -56,7 +55,7 @@ def residual_map(diagnosis: Diagnosis) -> Figure:
         axes.grid(axis="y", visible=False)
         axes.tick_params(axis="y", length=0)
         axes.spines["left"].set_visible(False)
-        _scale(scale, floor_name(diagnosis))
+        _scale(scale)
     return figure
 
 
@@ -103,7 +102,7 @@ def _frame(axes: Axes, row: int, curves: RecordCurves, region: Located, numbered
         numbered.append(middle)
 
 
-def _scale(axes: Axes, floor: str) -> None:
+def _scale(axes: Axes) -> None:
     """The colours and what they mean, from "too low" to "too high"."""
     count = len(NOISE_MULTIPLES)
     for level in range(-count, count + 1):
@@ -114,7 +113,7 @@ def _scale(axes: Axes, floor: str) -> None:
     axes.set(xlim=(-count - 0.5, count + 0.5), ylim=(0.0, 1.0), yticks=[])
     axes.text(-0.02, 0.5, "model too low", transform=axes.transAxes, ha="right", va="center", fontsize=8.5)
     axes.text(1.02, 0.5, "too high", transform=axes.transAxes, va="center", fontsize=8.5)
-    axes.set_xlabel(f"|model − measured| / {floor} [–]")
+    axes.set_xlabel("|model − measured| / noise [–]")
     axes.grid(visible=False)
     axes.spines[["left", "bottom"]].set_visible(False)
 
