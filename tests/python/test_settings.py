@@ -62,6 +62,7 @@ NUMERICAL = {
     "noise/whitener.py": {"LEAST_SHARED"},
     "detection/gap_test.py": {"ABSORBED"},
     "detection/strain_periodic.py": {"FREQUENCIES_PER_SPACING", "GRID"},
+    "detection/without_lines.py": {"PLACES"},
     "detection/tail.py": {"MANY", "_NODES", "_WEIGHTS"},
     "smoothing/averaging.py": {"PART", "BEYOND", "ORDERS"},
     "smoothing/necking.py": {"REFINED"},

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from probation.detection.without_lines import without_lines
 from probation.effects.record_view import views_of
 from probation.inference.candidate import WhitenedColumns
 from probation.inference.deviations import deviation_columns
@@ -24,7 +25,6 @@ from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
-from probation.noise.estimate import estimate_noise
 from probation.noise.own_deviations import own_deviations, specimen_columns
 from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
@@ -56,9 +56,9 @@ NoiseEstimator: TypeAlias = "Callable[[Sequence[RecordResidual]], tuple[NoiseMod
 
 
 def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
-    """Every record's noise, its drift included."""
-    noises = estimate_noise(residuals)
-    drift = estimate_drift(Whitened.of(residuals, noises))
+    """Every record's noise, its drift included; lines in the residuals are none of it."""
+    whitened = without_lines(residuals)
+    noises, drift = whitened.noises, estimate_drift(whitened)
     of_effects = like_an_effect(drift)
     return tuple(
         with_drift(noise, of_effects, drift - of_effects, record.time)

@@ -101,6 +101,10 @@ class DetectionSettings:
     line_neighbours: int = chosen(
         60, "frequencies", "Frequencies whose median power a line is measured against, if that is above the noise's."
     )
+    line_is_no_noise: float = chosen(
+        1e-5, "p-value", "Level below which a line in time is taken out of a residual before its noise is estimated."
+    )
+    most_lines: int = chosen(4, "lines", "So many lines of a record are taken out at most.")
     sharp_share: float = chosen(
         0.075, "-", "Part of the level that is spent on each: lines, steps, strain periods, and bumps that recur."
     )
