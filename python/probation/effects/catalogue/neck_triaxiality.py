@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
+    from probation.effects.effect import Placement
     from probation.effects.record_view import RecordView
 
 _ONSET = EffectParameter(
@@ -25,6 +26,9 @@ _ONSET = EffectParameter(
     starts=(0.05, 0.2),
     reason="a neck begins where the force is largest (Considere)",
 )
+
+_EVERYWHERE: tuple[Placement, ...] = ("all",)
+"""Whether a section necks follows from the material (Considere): one record alone does not, where others go as far."""
 
 
 def _bridgman(ratio: FloatArray) -> FloatArray:
@@ -83,6 +87,7 @@ EFFECT = Effect(
                 _ONSET,
             ),
             recorded_stress=_growing,
+            placements=_EVERYWHERE,
             needs=_necks,
         ),
         Form(
@@ -103,6 +108,7 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_passing,
+            placements=_EVERYWHERE,
             needs=_necks,
         ),
     ),

@@ -13,7 +13,11 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
+    from probation.effects.effect import Placement
     from probation.effects.record_view import RecordView
+
+_EVERYWHERE: tuple[Placement, ...] = ("all",)
+"""The material's volume changes in every record that goes as far, not in one alone."""
 
 _REASON = "volume strains of 0.1 to 0.3 at a strain of 1 are measured in polyethylene"
 
@@ -67,6 +71,7 @@ EFFECT = Effect(
             "steady",
             (EffectParameter("volume_per_strain", "", 0.0, 1.0, 0.1, _REASON),),
             recorded_stress=_steady,
+            placements=_EVERYWHERE,
             needs=_not_all_measured,
         ),
         Form(
@@ -85,6 +90,7 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_from_onset,
+            placements=_EVERYWHERE,
             needs=_not_all_measured,
         ),
         Form(
@@ -104,6 +110,7 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_opening,
+            placements=_EVERYWHERE,
             needs=_not_all_measured,
             variant=True,
         ),
@@ -120,6 +127,7 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_as_measured,
+            placements=_EVERYWHERE,
             needs=volume_changes,
         ),
     ),
