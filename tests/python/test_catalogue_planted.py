@@ -11,7 +11,7 @@ import probation
 from probation.comparison.faults import considered
 from probation.effects.catalogue.slack_strip import slack_intervals
 from probation.effects.record_view import views_of
-from probation.effects.registry import effects
+from probation.effects.registry import effect, effects
 from probation.effects.visible import unloads, visible
 from probation.law.modification import Modification
 from probation.records.record import Noise, Record
@@ -90,6 +90,22 @@ def largest(strain):
     return np.maximum.accumulate(strain)
 
 
+def test_a_ripple_of_one_test_is_no_noise():
+    """Three times as large as the noise, 17.6 periods: noise of five times its size, without a gap, until it was."""
+
+    def of_record(law, time, strain):
+        ripple = 0.12 * np.sin(2.0 * np.pi * 17.6 * time / time[-1]) if time[-1] > 300.0 else 0.0
+        return law.stress(time, strain) + ripple
+
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [0.9])
+        made.append(replace(record(f"at-{rate:g}", time, strain, of_record(LAW, time, strain), seed), noise=Noise()))
+    found = named(campaign(made), "periodic_disturbance")
+    assert found.best.records == ("at-0.002",)
+    assert found.curves["at-0.002"].noise_MPa == pytest.approx(0.04, rel=0.3)
+
+
 def test_mullins_softening():
     """Stress lost by 1 - e^(-x), x the strain below the largest so far over 0.06."""
 
@@ -133,6 +149,23 @@ def test_back_stress_of_the_plastic_strain():
 
     found = named(loops(stressed), "back_stress")
     assert value(found, "back_stress_MPa") == pytest.approx(4.0, rel=0.4)
+
+
+def test_flow_that_is_easier_once_the_straining_has_turned():
+    """Times shortened by 1 - 0.3/(1 + (p/0.04)^2), p the path since the last corner, as a time that runs faster."""
+
+    def turned(law, time, strain):
+        steps = np.diff(strain, prepend=0.0)
+        corners = np.flatnonzero(np.diff(np.sign(steps[1:]))) + 1
+        length = np.cumsum(np.abs(steps))
+        shorter = np.ones(len(time))
+        for first, last in pairwise([*corners, len(time)]):
+            shorter[first:last] -= 0.3 / (1.0 + ((length[first:last] - length[first]) / 0.04) ** 2)
+        own = np.append(0.0, np.cumsum(np.diff(time) * 0.5 * (1.0 / shorter[1:] + 1.0 / shorter[:-1])))
+        return law.stress(own, strain)
+
+    found = named(loops(turned), "back_stress")
+    assert 0.2 < value(found, "log_time_loss") < 0.6
 
 
 def test_hysteresis_of_the_load_cell():
@@ -409,6 +442,13 @@ def test_triaxiality_of_a_neck():
         factor = (1.0 + 2.0 / ratio) * np.log1p(ratio / 2.0)
         made.append(record(f"grips-{grips:g}", time, strain, factor * LAW.stress(time, strain), seed))
     named(campaign(replace(each, control="displacement-rate") for each in made), "neck_triaxiality")
+
+
+@pytest.mark.parametrize("name", ["neck_triaxiality", "volume_change"])
+def test_what_follows_from_the_material_is_not_said_of_one_test_alone(name):
+    """A draught in one of three tests was a neck in that test alone, with 100 %."""
+    of_material = effect(name)
+    assert {place for form in of_material.forms for place in of_material.placements(form)} == {"all"}
 
 
 def test_a_neck_whose_own_strain_rate_is_kept_is_considered():

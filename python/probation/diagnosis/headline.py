@@ -146,10 +146,12 @@ def _cause(
     if verdict == "unexplained":
         if known:
             verb = "is" if len(known) == 1 else "are"
-            return (
-                f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)}), but something outside "
-                "the catalogue is left"
+            left = (
+                "something outside the catalogue is left"
+                if parts.after_MPa > identify.noise_MPa
+                else "what is left takes a course that noise does not: something outside the catalogue acts, too"
             )
+            return f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)}), but {left}"
         return "nothing in the catalogue explains it"
     verb, pronoun = ("explains", "it") if len(known) == 1 else ("explain", "them")
     sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"

@@ -11,6 +11,7 @@ from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.maxwell_element import maxwell_element
 from probation.effects.visible import unloads
 from probation.law.modification import Modification
+from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -58,6 +59,14 @@ _SPREAD = EffectParameter(
     starts=(0.4,),
     reason="two or three surfaces, each some times as far as the one before",
 )
+_TIME_LOSS = EffectParameter(
+    name="log_time_loss",
+    unit="",
+    lower=0.0,
+    upper=5.0,
+    scale=0.7,
+    reason="a yield stress that is lower by some tenths when the straining turns",
+)
 
 
 def _saturating(strain: FloatArray, reach: float) -> FloatArray:
@@ -91,16 +100,35 @@ def _slip_element(view: RecordView, values: Values) -> Modification:
     return Modification(added_relaxed_stress=size / reach * (strain - behind(strain, reach)))
 
 
+def _path_since_reversal(strain: FloatArray) -> FloatArray:
+    """Length of the path (n,) since the straining last turned; infinite before it first does."""
+    steps = np.diff(strain, prepend=strain[0])
+    moving = np.flatnonzero(steps)
+    turned = moving[1:][np.sign(steps[moving[1:]]) != np.sign(steps[moving[:-1]])] - 1
+    path = np.cumsum(np.abs(steps))
+    last = np.searchsorted(turned, np.arange(len(strain)), side="right") - 1
+    return np.where(last >= 0, path - path[turned[last]] if turned.size else 0.0, np.inf)
+
+
+def _after_reversal(view: RecordView, values: Values) -> Modification:
+    """tau_max exp(-a e^(-p / r)), p the path since the last reversal: flow is easier until the way back is made."""
+    loss, reach = values
+    # A stiff specimen turns within a thousandth of the strain it has come to: by its noise, not by a part of its range.
+    turning = behind(view.true_strain, EFFECTS.return_over_noise * view.excitation.strain_noise)
+    return Modification(relaxation_time_factor=np.exp(-loss * np.exp(-_path_since_reversal(turning) / reach)))
+
+
 EFFECT = Effect(
     name="back_stress",
     title="back stress",
     physics=(
         "Straining leaves internal stresses that help the way back: flow begins early after a reversal (Bauschinger).\n"
-        "Amplitude: the stress at which it saturates, which no rate changes and no dwell relaxes."
+        "Amplitude: the stress at which it saturates, which no rate changes and no dwell relaxes; or ln of tau_max "
+        "over what it is when the straining turns."
     ),
     source=(
         "Prager 1956, J. Appl. Mech. 23, 493; Armstrong & Frederick 1966, CEGB report RD/B/N731; Iwan 1966, J. Appl. "
-        "Mech. 33, 893; Chaboche 1986, Int. J. Plasticity 2, 149"
+        "Mech. 33, 893; Chaboche 1986, Int. J. Plasticity 2, 149; Yoshida & Uemori 2002, Int. J. Plasticity 18, 661"
     ),
     shows_in="reversals, where the strain is taken back by some hundredths",
     kind="material",
@@ -114,6 +142,7 @@ EFFECT = Effect(
             variant=True,
         ),
         Form("slip_element", (_SIZE, _REACH), modification=_slip_element, needs=unloads),
+        Form("after_reversal", (_TIME_LOSS, _REACH), modification=_after_reversal, needs=unloads),
     ),
     odds=0.3,
 )
