@@ -177,6 +177,17 @@ def test_a_further_effect_counts_for_what_it_gains_beyond_the_error_of_the_first
     assert np.log(chance[tuple(sorted(NAMES[:2]))] / chance[(NAMES[0],)]) == pytest.approx(beforehand + counts)
 
 
+def test_a_further_effect_with_a_period_is_not_taken_for_the_error_of_a_form():
+    """A ripple that gained 137 beside a warming that gained 3943 was not counted: no smooth form errs by a period."""
+    first, second = (made(name) for name in NAMES[:2])
+    ripple = replace(second, forms=(replace(second.forms[0], sharp="line"),))
+    pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, ripple)), log_evidence=1030.0)
+    found = [hypothesis(), alone(NAMES[0], log_evidence=1000.0), pair]
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Trust(left_by_forms=0.05))}
+    beforehand = log_prior(tuple(NAMES[:2]), len(NAMES)) - log_prior((NAMES[0],), len(NAMES))
+    assert np.log(chance[tuple(sorted(NAMES[:2]))] / chance[(NAMES[0],)]) == pytest.approx(beforehand + 30.0)
+
+
 def test_of_a_gross_gap_a_further_effect_is_not_taken_for_the_error_of_a_form():
     """The first gains 100 000, of which a twentieth is far more than what was tried."""
     first, second = (made(name) for name in NAMES[:2])

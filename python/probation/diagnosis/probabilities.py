@@ -16,10 +16,11 @@ from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
     from probation._arrays import FloatArray
     from probation.diagnosis.hypothesis import Hypothesis
+    from probation.effects.cause import Cause
     from probation.effects.effect import Effect
     from probation.inference.calibration_check import Trust
 
@@ -76,6 +77,7 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
     evidence = _beyond_forms(
         {effects: float(logsumexp([score for score, _ in entries])) for effects, entries in together.items()},
         trust.left_by_forms,
+        periodic={cause.effect.name for hypothesis in hypotheses for cause in hypothesis.causes if _periodic(cause)},
     )
     gained = np.array([evidence[effects] for effects in together])
     before = np.array([log_prior(effects, count) + _log_odds(entries[0][1]) for effects, entries in together.items()])
@@ -104,19 +106,28 @@ def _unknown_cut(chances: FloatArray, evidence: Mapping[tuple[str, ...], float],
     return np.where(np.arange(len(chances)) == at, most, others * chances)
 
 
-def _beyond_forms(evidence: Mapping[tuple[str, ...], float], part: float) -> dict[tuple[str, ...], float]:
+def _periodic(cause: Cause) -> bool:
+    return cause.form.sharp in ("line", "strain_period")
+
+
+def _beyond_forms(
+    evidence: Mapping[tuple[str, ...], float], part: float, periodic: Collection[str]
+) -> dict[tuple[str, ...], float]:
     """Log evidence of all explanations, of several effects without what the error of one of their forms may leave.
 
-    An effect whose form is wrong by a fifth leaves a twenty-fifth of what it gains, and a further effect picks that up.
-    How much was tried ends at `EVIDENCE.most_left_by_forms`.
+    An effect whose form is wrong by a fifth leaves a twenty-fifth of what it gains, and a further effect picks that up;
+    but not one that is `periodic`: the error of a smooth form has no period. How much was tried ends at
+    `EVIDENCE.most_left_by_forms`.
     """
     none = evidence[()]
 
     def counted(effects: tuple[str, ...]) -> float:
         own = evidence[effects]
+        if sum(name not in periodic for name in effects) < 2:
+            return own
         alone = max((evidence[(name,)] for name in effects if (name,) in evidence), default=none)
         excused = min(part * max(alone - none, 0.0), EVIDENCE.most_left_by_forms)
-        return own if len(effects) < 2 else min(own, max(alone, own - excused))
+        return min(own, max(alone, own - excused))
 
     return {effects: counted(effects) for effects in evidence}
 
