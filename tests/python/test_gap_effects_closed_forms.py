@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
-from scipy.special import erfcx
+from scipy.special import erfcx, expi
 
 import probation
 from probation.effects.catalogue.finite_extensibility import inverse_langevin
@@ -23,6 +23,7 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.law.companion import WEISSENBERG_AS_PRINTED
 from probation.law.spectrum import Spectrum
+from probation.published.experiments import experiment
 from probation.records.record import Noise, Record
 
 RATE = 5e-3
@@ -75,7 +76,7 @@ def test_on_a_ramp_a_power_of_the_rate_is_another_time(exponent):
 
 def test_a_weissenberg_number_linear_in_the_logarithm_of_the_rate_is_equation_11():
     """On a necking history, where the rate changes all the time."""
-    necking = probation.published.experiments.experiment(3).record()
+    necking = experiment(3).record()
     rate = views_of(probation.Campaign(name="necking", records=(necking,)))[0].reference_rate
     number = 0.00464 * math.log10(rate) + 0.0367
     change = 0.00464 / number
@@ -90,7 +91,7 @@ def test_a_weissenberg_number_linear_in_the_logarithm_of_the_rate_is_equation_11
 def test_with_a_companion_relation_its_slope_changes():
     """PowerLaw(c, n) with a is PowerLaw(c r_ref^a, n - a)."""
     base = probation.Law(unrelaxed_modulus=3000.0, hardening_modulus=2.0, companion=probation.PowerLaw(0.03, -0.9))
-    necking = probation.published.experiments.experiment(2).record()
+    necking = experiment(2).record()
     found, views = predicted(base, necking, "rate_dependent_relaxation", "power", (0.07,))
     other = probation.PowerLaw(0.03 * views[0].reference_rate ** 0.07, -0.97)
     expected = probation.Law(unrelaxed_modulus=3000.0, hardening_modulus=2.0, companion=other)
@@ -789,6 +790,26 @@ def test_contacts_that_stick_and_slide_open_a_loop_of_the_given_width():
     read_down = np.interp(-level, -force[down], reading[down])
     assert read_down - read_up == pytest.approx(0.03 * largest, rel=1e-3)
     assert np.interp(0.4, force[up], reading[up]) == pytest.approx(0.4 * (1.0 - 0.5 * 0.03 / 0.1), rel=1e-6)
+
+
+def test_flow_after_a_reversal_is_the_law_in_a_time_that_runs_faster():
+    """Up at 0.01 1/s, down from 0.6 to 0.5 and up again: dt / e^(-a e^(-p/r)) is (r / rate) dE_1 in closed form."""
+    loss, reach, rate = 0.5, 0.05, 0.01
+    corners = np.array([0.0, 60.0, 70.0, 100.0])
+    time = np.linspace(0.0, 100.0, 4001)
+    strain = np.interp(time, corners, [0.0, 0.6, 0.5, 0.8])
+    record = replace(ramp(samples=4001), time=time, true_strain=strain)
+    found, _ = predicted(LAW, record, "back_stress", "after_reversal", (loss, reach))
+
+    def since(path):
+        return reach / rate * (expi(loss) - expi(loss * np.exp(-path / reach)))
+
+    own = time.copy()
+    own[time > 60.0] = 60.0 + since(rate * (time[time > 60.0] - 60.0))
+    own[time > 70.0] = 60.0 + since(0.1) + since(rate * (time[time > 70.0] - 70.0))
+    expected, without = (LAW.stress(instants, strain, scheme="sa3") for instants in (own, time))
+    # The factor jumps at a corner, and is a straight line within a step.
+    assert np.linalg.norm(found - expected) < 0.02 * np.linalg.norm(found - without)
 
 
 def test_surfaces_of_back_stress_follow_the_plastic_strain_exponential_by_exponential():

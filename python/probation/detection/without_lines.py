@@ -27,8 +27,8 @@ PLACES = 33
 def without_lines(records: Sequence[RecordResidual]) -> Whitened:
     """The records without certain lines, whitened by the noise that is left.
 
-    Lines are taken out one by one in every record, as long as that lowers the noise: a transient has a peak in its
-    periodogram, too, and a wave in its place disturbs the rest of the record.
+    Lines are taken out one by one in every record, as long as that does not raise the noise: a transient has a peak in
+    its periodogram, too, and a wave in its place disturbs the rest of the record.
 
     Parameters
     ----------

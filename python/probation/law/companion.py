@@ -1,6 +1,7 @@
 """Companion relations: the longest relaxation time from the strain rate, eqs. (10)-(12).
 
 A new form is one class here with its engine part in ``cpp/include/probation/companion``, and one line in `FORMS`.
+Commands, campaigns, calibration and finite elements name their forms themselves: docs/developing.md, "Adding files".
 """
 
 from __future__ import annotations
