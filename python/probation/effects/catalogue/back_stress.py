@@ -114,8 +114,8 @@ def _after_reversal(view: RecordView, values: Values) -> Modification:
     """tau_max exp(-a e^(-p / r)), p the path since the last reversal: flow is easier until the way back is made."""
     loss, reach = values
     # A stiff specimen turns within a thousandth of the strain it has come to: by its noise, not by a part of its range.
-    # A slider turns once the strain has come back by twice its width.
-    turning = behind(view.true_strain, 0.5 * EFFECTS.return_over_noise * view.excitation.strain_noise)
+    # The slider turns once the strain has come back by twice its width.
+    turning = behind(view.true_strain, EFFECTS.return_over_noise * view.excitation.strain_noise)
     return Modification(relaxation_time_factor=np.exp(-loss * np.exp(-_path_since_reversal(turning) / reach)))
 
 
