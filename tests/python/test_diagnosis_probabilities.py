@@ -178,7 +178,7 @@ def test_a_further_effect_counts_for_what_it_gains_beyond_the_error_of_the_first
 
 
 def test_a_further_effect_with_a_period_is_not_taken_for_the_error_of_a_form():
-    """A ripple that gained 137 beside a warming that gained 3943 was not counted: no smooth form errs by a period."""
+    """A ripple of 137 jointly with a warming of 3943 log units was not counted: no smooth form errs by a period."""
     first, second = (made(name) for name in NAMES[:2])
     ripple = replace(second, forms=(replace(second.forms[0], sharp="line"),))
     pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, ripple)), log_evidence=1030.0)

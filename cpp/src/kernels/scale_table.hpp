@@ -106,9 +106,10 @@ inline void form_cell(const Modes& modes, const ScaleCell& cell, double* rows) {
   }
 }
 
-/// Whether the cells between the lowest and the highest of these scales need no more exponentials than the
-/// steps themselves.
-inline bool table_pays(const double* scale, int count) {
+/// Whether there is a table, and its cells between the lowest and the highest of these scales need no more
+/// exponentials than the steps themselves.
+inline bool table_pays(const Modes& modes, const double* scale, int count) {
+  if (!modes.table || count == 0) return false;
   double lowest = scale[0], highest = scale[0];
   const auto take = [&](double low, double high) {
     lowest = low < lowest ? low : lowest;

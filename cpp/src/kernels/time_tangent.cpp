@@ -155,7 +155,7 @@ void exponential_sweep(const Modes& modes, const Steps& steps, double* stress, c
                        double* scratch) {
   const int last = steps.count - 1;
   const Steps most = part_of(steps, 0, last);
-  const bool pays_for_all = modes.table && last > 0 && table_pays(steps.scale, last);
+  const bool pays_for_all = table_pays(modes, steps.scale, last);
   in_runs(most, TabledSteps::most, stress, d,
           [&](const Steps& part, const TangentDirection& there, double* stress_there) {
             if (modes.table) {

@@ -124,7 +124,7 @@ void tabled_sweep(const Modes& modes, const Steps& steps, const TabledSteps& tab
 void exponential_sweep(const Modes& modes, const Steps& steps, double* stress) {
   const int last = steps.count - 1;
   int n = 0;
-  const bool pays_for_all = modes.table && last > 0 && table_pays(steps.scale, last);
+  const bool pays_for_all = table_pays(modes, steps.scale, last);
   while (modes.table && n < last) {
     const TabledSteps tabled(modes, steps.scale + n, last - n, pays_for_all);
     const int count = tabled.count > 0               ? tabled.count

@@ -89,12 +89,24 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         best = int(np.argmax(power / level))
         single = float(np.exp(-power[best] / level[best]))
         tried = len(power) * len(whitened.records)
-        wave = 2.0 * np.pi * frequency[best] * record.time
-        columns = whitened.noises[index].whiten(np.column_stack([np.cos(wave), np.sin(wave)]))
-        parts = np.linalg.lstsq(columns - white @ (white.T @ columns), left, rcond=None)[0]
+        _, parts = fitted_sine(whitened, index, left, white, frequency[best])
         p_value = smallest_of_many(single, tried)
         lines.append(Line(record.name, float(frequency[best]), float(np.hypot(*parts)), p_value))
     return tuple(sorted(lines, key=lambda line: line.p_value))
+
+
+def fitted_sine(
+    whitened: Whitened, index: int, left: FloatArray, white: FloatArray, frequency: float
+) -> tuple[FloatArray, FloatArray]:
+    """Cosine and sine of a frequency [Hz] over a record, shape (n, 2), and their sizes [MPa], shape (2,).
+
+    By least squares of what `left_by_slow_waves` leaves, with the columns that it takes out.
+    """
+    phase = 2.0 * np.pi * frequency * whitened.records[index].time
+    waves = np.column_stack([np.cos(phase), np.sin(phase)])
+    seen = whitened.noises[index].whiten(waves)
+    size = np.linalg.lstsq(seen - white @ (white.T @ seen), left, rcond=None)[0]
+    return waves, np.asarray(size, dtype=np.float64)
 
 
 def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: int = 0) -> tuple[Step, ...]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.detection.lines_and_steps import Line, find_lines, left_by_slow_waves, uneven_power
+from probation.detection.lines_and_steps import Line, find_lines, fitted_sine, left_by_slow_waves, uneven_power
 from probation.noise.whitening import Whitened
 from probation.settings.detection import DETECTION
 
@@ -36,19 +36,16 @@ def without_lines(records: Sequence[RecordResidual]) -> Whitened:
     """
     whitened = Whitened.of(records)
     for _ in range(DETECTION.most_lines):
-        lines = [line for line in find_lines(whitened) if line.p_value < DETECTION.line_is_no_noise]
-        if not lines:
+        lines = {line.record: line for line in find_lines(whitened) if line.p_value < DETECTION.line_is_no_noise}
+        touched = [index for index, record in enumerate(whitened.records) if record.name in lines]
+        if not touched:
             break
         cleaned = list(whitened.records)
-        for line in lines:
-            index = [record.name for record in cleaned].index(line.record)
-            cleaned[index] = _without(whitened, index, line)
+        for index in touched:
+            cleaned[index] = _without(whitened, index, lines[cleaned[index].name])
         after = Whitened.of(cleaned)
-        if any(
-            new.deviation.mean() > old.deviation.mean()
-            for new, old in zip(after.noises, whitened.noises, strict=True)
-            if any(line.record == old.name for line in lines)
-        ):
+        noises = [(whitened.noises[index], after.noises[index]) for index in touched]
+        if any(new.deviation.mean() > old.deviation.mean() for old, new in noises):
             break
         whitened = after
     return whitened
@@ -56,12 +53,9 @@ def without_lines(records: Sequence[RecordResidual]) -> Whitened:
 
 def _without(whitened: Whitened, index: int, line: Line) -> RecordResidual:
     """A record without a line, the frequency of which is refined; slow waves and the record's own refit are left."""
-    record, noise = whitened.records[index], whitened.noises[index]
+    record = whitened.records[index]
     left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
     near = line.frequency_Hz + np.linspace(-0.5, 0.5, PLACES) / float(record.time[-1] - record.time[0])
     frequency = near[int(np.argmax(uneven_power(record.time, left, near)))]
-    wave = 2.0 * np.pi * frequency * record.time
-    columns = np.column_stack([np.cos(wave), np.sin(wave)])
-    seen = noise.whiten(columns)
-    size = np.linalg.lstsq(seen - white @ (white.T @ seen), left, rcond=None)[0]
-    return replace(record, residual=record.residual - columns @ size)
+    waves, size = fitted_sine(whitened, index, left, white, frequency)
+    return replace(record, residual=record.residual - waves @ size)

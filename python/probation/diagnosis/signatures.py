@@ -62,7 +62,7 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
             value = abs(base.parameters[names.index(drift.parameter)])
             size = (
                 f"{reach:.2g}, where all records together give {value:.2g}"
-                if reach > value
+                if reach >= value
                 else f"{percentage(reach / value)} % of its value"
             )
             text = f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to {size}"

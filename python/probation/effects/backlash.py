@@ -17,3 +17,13 @@ def behind(strain: FloatArray, width: float) -> FloatArray:
         place = min(max(place, now - width), now + width)
         path.append(place)
     return np.array(path)
+
+
+def path_since_reversal(strain: FloatArray) -> FloatArray:
+    """Length of the path (n,) since the straining last turned; infinite before it first does."""
+    steps = np.diff(strain, prepend=strain[0])
+    moving = np.flatnonzero(steps)
+    turned = moving[1:][np.sign(steps[moving[1:]]) != np.sign(steps[moving[:-1]])] - 1
+    path = np.cumsum(np.abs(steps))
+    last = np.searchsorted(turned, np.arange(len(strain)), side="right") - 1
+    return np.where(last >= 0, path - path[turned[last]] if turned.size else 0.0, np.inf)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from probation import _core
-from probation.effects.backlash import behind
+from probation.effects.backlash import behind, path_since_reversal
 from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
@@ -166,6 +166,15 @@ class RecordView:
     def strain_behind_backlash(self) -> FloatArray:
         """The strain behind a backlash of `backlash` of its range, shape (n,): noise does not lengthen its path."""
         return behind(self.true_strain, EFFECTS.backlash * float(np.ptp(self.true_strain)))
+
+    @cached_property
+    def path_since_reversal(self) -> FloatArray:
+        """Length of the strain's path since it last turned, shape (n,); infinite before it first does.
+
+        A stiff specimen turns within a thousandth of the strain it has come to: what counts is the strain's noise, not
+        a part of its range.
+        """
+        return path_since_reversal(behind(self.true_strain, EFFECTS.return_over_noise * self.excitation.strain_noise))
 
     @cached_property
     def haward_thackray_strain(self) -> FloatArray:

@@ -11,7 +11,6 @@ from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.maxwell_element import maxwell_element
 from probation.effects.visible import unloads
 from probation.law.modification import Modification
-from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -100,23 +99,10 @@ def _slip_element(view: RecordView, values: Values) -> Modification:
     return Modification(added_relaxed_stress=size / reach * (strain - behind(strain, reach)))
 
 
-def _path_since_reversal(strain: FloatArray) -> FloatArray:
-    """Length of the path (n,) since the straining last turned; infinite before it first does."""
-    steps = np.diff(strain, prepend=strain[0])
-    moving = np.flatnonzero(steps)
-    turned = moving[1:][np.sign(steps[moving[1:]]) != np.sign(steps[moving[:-1]])] - 1
-    path = np.cumsum(np.abs(steps))
-    last = np.searchsorted(turned, np.arange(len(strain)), side="right") - 1
-    return np.where(last >= 0, path - path[turned[last]] if turned.size else 0.0, np.inf)
-
-
 def _after_reversal(view: RecordView, values: Values) -> Modification:
     """tau_max exp(-a e^(-p / r)), p the path since the last reversal: flow is easier until the way back is made."""
     loss, reach = values
-    # A stiff specimen turns within a thousandth of the strain it has come to: by its noise, not by a part of its range.
-    # The slider turns once the strain has come back by twice its width.
-    turning = behind(view.true_strain, EFFECTS.return_over_noise * view.excitation.strain_noise)
-    return Modification(relaxation_time_factor=np.exp(-loss * np.exp(-_path_since_reversal(turning) / reach)))
+    return Modification(relaxation_time_factor=np.exp(-loss * np.exp(-view.path_since_reversal / reach)))
 
 
 EFFECT = Effect(
