@@ -43,7 +43,7 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
             [case for case in cases if case.resolvable], lambda case: case.stratum, _STRATA
         ),
         "false_alarms": Rate.of(case.answer.gap for case in nulls).plain(),
-        "false_alarms_by_kind": _false_alarms(nulls),
+        "false_alarms_by_kind": false_alarms(nulls),
         "by_strain_noise": {name: _quality(each) for name, each in _by_strain_noise(cases).items()},
         "detection": {
             name: Rate.of(case.answer.gap for case in cases if case.causes and case.detectability_class == name).plain()
@@ -61,7 +61,7 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
     }
 
 
-def _false_alarms(nulls: Sequence[Case]) -> dict[str, object]:
+def false_alarms(nulls: Sequence[Case]) -> dict[str, object]:
     """Of alike and of differing specimens, and of strains as extensometers measure them."""
     quiet = [case for case in nulls if case.strain_noise <= _USUAL_STRAIN]
     return {
@@ -121,7 +121,7 @@ def _unknown(cases: Sequence[Case]) -> dict[str, object]:
     return {
         "auroc": area_under_curve([case.answer.unknown for case in outside], within),
         "auroc_clear": area_under_curve([case.answer.unknown for case in clear], within),
-        "level_at_5_percent_false_alarms": level,
+        "level_at_5_percentfalse_alarms": level,
         "found": Rate.of(case.answer.unknown > level for case in outside).plain(),
         "found_clear": Rate.of(case.answer.unknown > level for case in clear).plain(),
     }

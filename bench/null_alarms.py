@@ -1,0 +1,94 @@
+"""Rows of "Alarms" in docs/laboratories.md: how often the test for a gap takes a campaign without one for one with.
+
+`python -m bench.null_alarms FOLDER…`: sealed folders with truths; nulls and replicates are asked, others passed over.
+About two seconds of CPU each. What is found is written to `gaps.jsonl` of each folder as it comes, with the commit
+that it comes from: a run that was ended goes on where it was. Intervals are exact, of 95 %.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bench.laboratories import rate
+from probation.effects.registry import effects
+from probation.effects.visible import visible
+from probation.identify.base import base_fit
+from probation.identify.fit import plain_fit
+from probation.inference.gap import find_gap
+from probation.inference.thinning import thin
+from probation.origin import commit
+from probation.records.campaign import Campaign
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.scores.answer import Answer
+from probation_studies.blind.scores.board import false_alarms
+from probation_studies.blind.scores.case import Case
+from probation_studies.blind.seal import read_truth
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+HEAD = ("laboratory", "commit", "seed", "specimens alike", "specimens differ", "strain noise to 5e-4")
+
+
+def gap_in(folder: Path) -> dict[str, object]:
+    """Whether a campaign is said to hold a gap, and how plainly."""
+    campaign, _ = thin(Campaign.load(folder))
+    fitted = base_fit(campaign, plain_fit(campaign, "sa3", None))
+    known = visible(effects(), fitted.model.views)
+    gap = find_gap(fitted.screened(known), known)
+    return {
+        "gap": gap.exists,
+        "p_value": min(gap.test.p_value, gap.held_out_p_value),
+        "rms_MPa": gap.size.rms_MPa,
+        "relative": gap.size.relative,
+        "commit": commit(),
+    }
+
+
+def asked(layout: Layout) -> list[tuple[Case, Mapping[str, object]]]:
+    """Every null, and what was found in it."""
+    path = layout.folder / "gaps.jsonl"
+    lines = path.read_text().splitlines() if path.exists() else []
+    found = {each["campaign"]: each for each in map(json.loads, lines)}
+    nulls = []
+    for truth in sorted(layout.truths.glob("*-[0-9]*.json")):
+        case = Case(truth.stem, json.loads(read_truth(truth).text), Answer({}, {}, (), gap=False))
+        if case.causes:
+            continue
+        if case.name not in found:
+            found[case.name] = {"campaign": case.name, **gap_in(layout.campaigns / case.name)}
+            with path.open("a") as file:
+                print(json.dumps(found[case.name]), file=file)
+        answer = Answer({}, {}, (), gap=bool(found[case.name]["gap"]))
+        nulls.append((Case(case.name, case.truth, answer), found[case.name]))
+    return nulls
+
+
+def row(layout: Layout) -> str:
+    """Its row."""
+    nulls, (published, _) = asked(layout), layout.published()
+    alarms = false_alarms([case for case, _ in nulls])
+    commits = sorted({str(found["commit"]) for _, found in nulls})
+    cells = (
+        str(published.get("laboratory", "own")),
+        ", ".join(commits),
+        ", ".join(str(each) for each in sorted({case.truth["seed"] for case, _ in nulls})),
+        *(rate(alarms[kind]) for kind in ("alike", "differing", "strain_noise_to_5e-4")),
+    )
+    return f"| {' | '.join(cells)} |"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+", type=Path, help="sealed folders of one laboratory each")
+    layouts = [Layout(folder) for folder in parser.parse_args().folders]
+    print(f"| {' | '.join(HEAD)} |\n| {' | '.join(['---'] * len(HEAD))} |")
+    for layout in layouts:
+        print(row(layout), flush=True)
+
+
+if __name__ == "__main__":
+    main()
