@@ -54,5 +54,6 @@ void bind_identify(py::module_& m);
 void bind_kinematics(py::module_& m);
 void bind_law(py::module_& m);
 void bind_ramp(py::module_& m);
+void bind_slider(py::module_& m);
 void bind_solver(py::module_& m);
 void bind_spectrum(py::module_& m);

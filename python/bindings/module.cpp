@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, m) {
   bind_errors(m);
   bind_kinematics(m);
   bind_elastic_frame(m);
+  bind_slider(m);
   bind_spectrum(m);
   bind_companion(m);
   bind_feedback(m);

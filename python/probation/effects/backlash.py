@@ -1,4 +1,4 @@
-"""What moves behind a backlash: a slider that a strain takes along once it has gone so far."""
+"""What moves behind a backlash: a slider that a value takes along once it has gone so far."""
 
 from __future__ import annotations
 
@@ -6,17 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation import _core
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
 
-def behind(strain: FloatArray, width: float) -> FloatArray:
-    """The slider's place, shape (n,), never further than `width` from the strain (n,); it begins with it."""
-    place, path = float(strain[0]), []
-    for now in strain.tolist():
-        place = min(max(place, now - width), now + width)
-        path.append(place)
-    return np.array(path)
+def behind(value: FloatArray, width: float, begin: float = np.nan) -> FloatArray:
+    """The slider's place (n,), never further than `width` from a value (n,); it begins with it, or at `begin`."""
+    return _core.behind_backlash(value, width, begin)
 
 
 def path_since_reversal(strain: FloatArray) -> FloatArray:

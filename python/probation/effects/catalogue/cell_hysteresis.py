@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.effects.backlash import behind
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.visible import unloads
 
@@ -53,11 +54,9 @@ def _friction(view: RecordView, values: Values, stress: FloatArray) -> FloatArra
     """
     force = stress / view.stretch
     width = values[0] * float(np.max(np.abs(view.nominal_data)))
-    reading, read = float(force[0]), []
-    for now in force.tolist():
-        reading = max(now, min(now + width, reading))
-        read.append(reading)
-    return np.array(read) * view.stretch
+    # What lags behind stays between the force and w above it: a slider half way between, begun at the force.
+    reading = behind(force + 0.5 * width, 0.5 * width, force[0])
+    return reading * view.stretch
 
 
 def _presliding(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
