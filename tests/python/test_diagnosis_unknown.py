@@ -55,3 +55,10 @@ def test_teeth_of_one_pitch_are_one_unknown_effect():
     assert gain([teeth] * RECORDS) > 100.0
     rough = [np.random.default_rng(index).permutation(teeth) for index in range(RECORDS)]
     assert gain(rough) < 5.0
+
+
+def test_a_wave_in_time_is_no_unknown_effect_that_is_periodic_in_the_strain():
+    """At a constant rate it is periodic in both: the catalogue's wave has the say, also where it grows with stretch."""
+    wave = 1.5 * np.sin(2.0 * np.pi * 20.0 * STRAIN)
+    assert gain([wave, *np.zeros((RECORDS - 1, COUNT))]) < 5.0
+    assert gain([wave * np.exp(STRAIN), *np.zeros((RECORDS - 1, COUNT))]) < 5.0

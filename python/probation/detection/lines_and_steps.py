@@ -96,14 +96,22 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
 
 
 def fitted_sine(
-    whitened: Whitened, index: int, left: FloatArray, white: FloatArray, frequency: float
+    whitened: Whitened,
+    index: int,
+    left: FloatArray,
+    white: FloatArray,
+    frequency: float,
+    growth: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Cosine and sine of a frequency [Hz] over a record, shape (n, 2), and their sizes [MPa], shape (2,).
 
-    By least squares of what `left_by_slow_waves` leaves, with the columns that it takes out.
+    By least squares of what `left_by_slow_waves` leaves, with the columns that it takes out. With a `growth` (n,) two
+    more follow, in proportion to it.
     """
     phase = 2.0 * np.pi * frequency * whitened.records[index].time
     waves = np.column_stack([np.cos(phase), np.sin(phase)])
+    if growth is not None:
+        waves = np.hstack([waves, waves * growth[:, None]])
     seen = whitened.noises[index].whiten(waves)
     size = np.linalg.lstsq(seen - white @ (white.T @ seen), left, rcond=None)[0]
     return waves, np.asarray(size, dtype=np.float64)

@@ -16,6 +16,7 @@ from scipy.special import gammaincc
 
 from probation.detection.lines_and_steps import left_by_slow_waves, running_median, speed_wander_in
 from probation.detection.tail import smallest_of_many
+from probation.detection.without_lines import without_one_line_each
 from probation.noise.smooth_basis import waves
 from probation.settings.detection import DETECTION
 
@@ -127,15 +128,9 @@ def strain_periodic_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     log_share : float
         See `StrainPeriodic.log_share`; 0 if none is certain.
     """
-    component = next(
-        (
-            candidate
-            for candidate in find_strain_periodic(whitened)
-            if candidate.p_value < DETECTION.strain_periodic_level
-        ),
-        None,
-    )
-    if component is None:
+    component = _certain(whitened)
+    # At a constant rate a wave in time is one in the strain, too: only what a line in time leaves is certain.
+    if component is None or _certain(without_one_line_each(whitened, DETECTION.strain_periodic_level)) is None:
         return np.zeros((len(whitened), 0)), 0.0
     orders = np.arange(1, DETECTION.harmonics[-1] + 1)
     largest = max(float(np.max(np.abs(record.true_strain))) for record in whitened.records)
@@ -149,6 +144,12 @@ def strain_periodic_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     share = np.tile(orders**-2.0, 4)
     size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
     return np.asarray(columns / size * np.sqrt(share / share.sum())), component.log_share
+
+
+def _certain(whitened: Whitened) -> StrainPeriodic | None:
+    """The most certain one, if its p-value is low enough."""
+    found = find_strain_periodic(whitened)
+    return found[0] if found and found[0].p_value < DETECTION.strain_periodic_level else None
 
 
 def likely_periods(strains: Sequence[FloatArray], values: Sequence[FloatArray], most: int = 3) -> list[float]:

@@ -18,6 +18,7 @@ from probation.settings.detection import DETECTION
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from probation._arrays import FloatArray
     from probation.noise.record_residual import RecordResidual
 
 PLACES = 33
@@ -51,11 +52,32 @@ def without_lines(records: Sequence[RecordResidual]) -> Whitened:
     return whitened
 
 
-def _without(whitened: Whitened, index: int, line: Line) -> RecordResidual:
-    """A record without a line, the frequency of which is refined; slow waves and the record's own refit are left."""
+def without_one_line_each(whitened: Whitened, level: float) -> Whitened:
+    """The same noise, and of every record what its strongest line in time leaves, where its p-value is below a level.
+
+    Its size may grow or fall with the stretch: what is constant in force does.
+
+    Parameters
+    ----------
+    whitened : Whitened
+    level : float
+    """
+    lines = {line.record: line for line in find_lines(whitened) if line.p_value < level}
+    records = [
+        _without(whitened, index, lines[record.name], np.exp(record.true_strain)) if record.name in lines else record
+        for index, record in enumerate(whitened.records)
+    ]
+    return Whitened.of(records, whitened.noises) if lines else whitened
+
+
+def _without(whitened: Whitened, index: int, line: Line, growth: FloatArray | None = None) -> RecordResidual:
+    """A record without a line, the frequency of which is refined; slow waves and the record's own refit are left.
+
+    With a `growth` (n,) the line may be partly in proportion to it.
+    """
     record = whitened.records[index]
     left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
     near = line.frequency_Hz + np.linspace(-0.5, 0.5, PLACES) / float(record.time[-1] - record.time[0])
     frequency = near[int(np.argmax(uneven_power(record.time, left, near)))]
-    waves, size = fitted_sine(whitened, index, left, white, frequency)
+    waves, size = fitted_sine(whitened, index, left, white, frequency, growth)
     return replace(record, residual=record.residual - waves @ size)
