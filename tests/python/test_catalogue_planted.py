@@ -106,6 +106,44 @@ def test_a_ripple_of_one_test_is_no_noise():
     assert found.curves["at-0.002"].noise_MPa == pytest.approx(0.04, rel=0.3)
 
 
+def at_constant_speed(of_record):
+    """Three speeds of the crosshead; `of_record(time, travel, stress)` gives what is read of travel and stress."""
+    made = []
+    for seed, speed in enumerate((SLOW, 5e-3, FAST)):
+        time = np.linspace(0.0, 1.2 / speed, FINE * 200 + 1)
+        travel = speed * time
+        read, stress = of_record(time, travel, LAW.stress(time, np.log1p(travel)))
+        made.append(record(f"at-{speed:g}", time, np.log1p(read), stress, seed))
+    return campaign(made)
+
+
+def test_the_pitch_error_of_a_screw_is_a_wave_of_the_travel():
+    """Once a turn of 0.07 of the gauge length; the force is converted by what is read."""
+
+    def read(time, travel, stress):
+        wrong = travel + 1e-3 * np.sin(2.0 * np.pi * travel / 0.07)
+        return wrong, stress * (1.0 + wrong) / (1.0 + travel)
+
+    found = named(at_constant_speed(read), "periodic_disturbance")
+    assert "travel" in found.best.forms
+    assert value(found, "period_of_travel") == pytest.approx(0.07, rel=0.01)
+    assert value(found, "travel_wave") == pytest.approx(1e-3, rel=0.1)
+
+
+def test_a_frame_that_rings_is_a_wave_that_dies_out():
+    """From the start of the slowest test on: a twentieth of it long, falling to a third in six periods."""
+
+    def read(time, travel, stress):
+        if time[-1] < 500.0:
+            return travel, stress
+        periods = time / (0.05 * time[-1])
+        return travel, stress + 0.4 * np.exp(-periods / 6.0) * np.sin(2.0 * np.pi * periods) * (1.0 + travel)
+
+    found = named(at_constant_speed(read), "periodic_disturbance")
+    assert found.best.forms == ("ringing",)
+    assert value(found, "lasting_periods") == pytest.approx(6.0, rel=0.2)
+
+
 def test_mullins_softening():
     """Stress lost by 1 - e^(-x), x the strain below the largest so far over 0.06."""
 

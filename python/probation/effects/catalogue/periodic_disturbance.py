@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.detection.strain_periodic import likely_periods
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
 if TYPE_CHECKING:
@@ -37,6 +38,26 @@ _PHASE = EffectParameter(
     period=np.pi,
     reason="any; with a signed amplitude it repeats itself after half a turn",
 )
+_PITCH = EffectParameter(
+    name="period_of_travel",
+    unit="",
+    lower=1e-4,
+    upper=2.0,
+    centre=0.05,
+    scale=float("inf"),
+    log=True,
+    reason="a turn of the screw, over the gauge length: any",
+)
+_LASTING = EffectParameter(
+    name="lasting_periods",
+    unit="",
+    lower=0.3,
+    upper=100.0,
+    centre=3.0,
+    scale=1.0,
+    log=True,
+    reason="frames with a damping ratio of some per cent: 1 / (2 pi ratio) is one to ten",
+)
 
 
 def _wave(view: RecordView, values: Values) -> FloatArray:
@@ -59,6 +80,29 @@ def _on_strain(view: RecordView, values: Values) -> FloatArray:
     return np.asarray(view.true_strain + wave - wave[0])
 
 
+def _on_travel(view: RecordView, values: Values) -> FloatArray:
+    """The travel reads a wave too much, once in so much travel: the specimen sees it less."""
+    size, period, phase = values
+    travel = np.expm1(view.recorded_strain)
+    wave = size * np.sin(2.0 * np.pi * travel / period + phase)
+    # Never down to a stretch of nothing: beyond any specimen, but not beyond a search.
+    return np.asarray(np.log(np.maximum(np.exp(view.true_strain) - (wave - wave[0]), 1e-3)))
+
+
+def _ringing(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """Every change of the rate sets off a wave of the force that dies out, as large as the change."""
+    size, frequency, phase, lasting = values
+    corners = np.array([0, *view.jumps, len(view) - 1])
+    rates = np.diff(view.recorded_strain[corners]) / np.maximum(np.diff(view.time[corners]), 1e-300)
+    changes = np.diff(rates, prepend=0.0)
+    ring = np.zeros(len(view))
+    for corner, change in zip(corners[:-1], changes / max(float(np.max(np.abs(changes))), 1e-300), strict=True):
+        periods = frequency * np.maximum(view.time - view.time[corner], 0.0)
+        begun = (view.time >= view.time[corner]) * change
+        ring += begun * np.exp(-periods / lasting) * np.sin(2.0 * np.pi * periods + phase)
+    return stress + size * ring * view.stretch
+
+
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Peaks of the residuals' periodogram, or some cycles over the longest record; sine and cosine."""
     if residuals is None:
@@ -68,6 +112,23 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
         frequencies = [peak for view, residual in zip(views, residuals, strict=True) for peak in _peaks(view, residual)]
     inside = [float(np.clip(frequency, _FREQUENCY.lower, _FREQUENCY.upper)) for frequency in frequencies]
     return [(frequency, phase) for frequency in inside for phase in (0.0, 0.5 * np.pi)]
+
+
+def _turns(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Peaks of the residuals' power over the travel, or some turns in the longest record; sine and cosine."""
+    travels = [view.sampled(np.expm1(view.recorded_strain)) for view in views]
+    if residuals is None:
+        longest = max(float(np.ptp(travel)) for travel in travels)
+        periods = [longest / turns for turns in _CYCLES]
+    else:
+        periods = likely_periods(travels, residuals, _PEAKS)
+    inside = [float(np.clip(period, _PITCH.lower, _PITCH.upper)) for period in periods]
+    return [(period, phase) for period in inside for phase in (0.0, 0.5 * np.pi)]
+
+
+def _rings(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Those of a wave, lasting as many periods as is usual."""
+    return [(*start, _LASTING.centre) for start in _starts(views, residuals)]
 
 
 def _peaks(view: RecordView, residual: FloatArray) -> list[float]:
@@ -96,10 +157,13 @@ EFFECT = Effect(
     name="periodic_disturbance",
     title="periodic disturbance",
     physics=(
-        "A screw, a pump or the mains adds a wave of one frequency to the force, the stress or the strain.\n"
+        "A screw, a pump, the mains or a frame that rings adds a wave to the force, the stress, the strain or travel.\n"
         "Amplitude: of the wave; its phase is counted from the start of each record."
     ),
-    source="André et al., Figure 2 (vibration in experiment 1); ASTM E1942",
+    source=(
+        "André et al., Figure 2 (vibration in experiment 1); ASTM E1942; ISO 230-2 (a screw's pitch); Den Hartog 1934, "
+        "Mechanical Vibrations"
+    ),
     shows_in="a wave in the residual; the records of one machine share its frequency, not its phase",
     kind="rig",
     coordinate="time",
@@ -125,6 +189,26 @@ EFFECT = Effect(
             starts=_starts,
             sharp="line",
             converts=False,
+        ),
+        Form(
+            "travel",
+            (
+                EffectParameter("travel_wave", "", -0.05, 0.05, 5e-4, "some hundredths of a mm in 25 to 100 mm"),
+                _PITCH,
+                _PHASE,
+            ),
+            driving_strain=_on_travel,
+            starts=_turns,
+            sharp="line",
+            variant=True,
+        ),
+        Form(
+            "ringing",
+            (*_parameters(EffectParameter("wave_MPa", "MPa", -20.0, 20.0, 0.2, "some tenths of a MPa")), _LASTING),
+            recorded_stress=_ringing,
+            starts=_rings,
+            sharp="line",
+            variant=True,
         ),
     ),
 )
