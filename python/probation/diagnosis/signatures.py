@@ -9,6 +9,7 @@ import numpy as np
 from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.signatures import Drift, parameter_drift, usual_covariates
 from probation.diagnosis.result import Signature
+from probation.inference.parameter import symbol_of
 from probation.settings.detection import DETECTION
 from probation.wording import listed, percentage
 
@@ -65,7 +66,8 @@ def signatures(base: BaseFit, best: Hypothesis) -> tuple[Signature, ...]:
                 if reach >= value
                 else f"{percentage(reach / value)} % of its value"
             )
-            text = f"{drift.parameter}, refitted record by record, changes {changes_with(drift)}, by up to {size}"
+            parameter = symbol_of(drift.parameter)
+            text = f"{parameter}, refitted record by record, changes {changes_with(drift)}, by up to {size}"
             entries.append(Signature("parameter", None, drift.heterogeneity_p_value, text))
     return tuple(entries)
 

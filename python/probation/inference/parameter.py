@@ -34,6 +34,11 @@ def outside_name(name: str) -> str:
     return PARAMETER_KEYS[name]
 
 
+def symbol_of(name: str) -> str:
+    """How a sentence writes a parameter: "tau_max_s" as "τ_max"; one of another law as it is called."""
+    return {outside_name(own): symbol for own, symbol in SYMBOLS.items()}.get(name, name)
+
+
 def by_inside_name(given: Mapping[str, Value], names: Sequence[str], argument: str) -> dict[str, Value]:
     """What is given by outside names, by their inside ones.
 
