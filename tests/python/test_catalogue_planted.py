@@ -117,19 +117,6 @@ def at_constant_speed(of_record):
     return campaign(made)
 
 
-def test_the_pitch_error_of_a_screw_is_a_wave_of_the_travel():
-    """Once a turn of 0.07 of the gauge length; the force is converted by what is read."""
-
-    def read(time, travel, stress):
-        wrong = travel + 1e-3 * np.sin(2.0 * np.pi * travel / 0.07)
-        return wrong, stress * (1.0 + wrong) / (1.0 + travel)
-
-    found = named(at_constant_speed(read), "periodic_disturbance")
-    assert "travel" in found.best.forms
-    assert value(found, "period_of_travel") == pytest.approx(0.07, rel=0.01)
-    assert value(found, "travel_wave") == pytest.approx(1e-3, rel=0.1)
-
-
 def test_a_frame_that_rings_is_a_wave_that_dies_out():
     """From the start of the slowest test on: a twentieth of it long, falling to a third in six periods."""
 

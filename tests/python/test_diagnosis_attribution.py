@@ -147,10 +147,10 @@ def attributed(closed, gap=3.0):
     return parts
 
 
-def told(parts, verdict="explained"):
+def told(parts, verdict="explained", noise=0.05):
     """The headline of a gap of 4 MPa that all three effects of `KNOWN` close to 0.2 MPa."""
     best = SimpleNamespace(effects=ORDERED, records=("a",))
-    closure = Closure(4.0, 0.2, 0.05, 0.999, None, "")
+    closure = Closure(4.0, 0.2, noise, 0.999, None, "")
     return headline(
         verdict,
         [best],
@@ -159,6 +159,21 @@ def told(parts, verdict="explained"):
         SimpleNamespace(identify=closure, records={"a": None}, held_out=None),
         SimpleNamespace(held_out={}, in_fitted=True, matters=lambda tolerance: True),
     )
+
+
+@pytest.mark.parametrize(
+    ("noise", "left"),
+    [
+        (0.05, "but something outside the catalogue is left."),
+        (
+            0.3,
+            "but what is left takes a course that noise does not: something outside the catalogue acts, too.",
+        ),
+    ],
+)
+def test_what_is_left_below_the_noise_is_told_by_its_course(noise, left):
+    parts = attributed(closing((0.99, 0.9, 0.9), (0.995, 0.995, 0.995), 0.999))
+    assert told(parts, "unexplained", noise).endswith(left)
 
 
 @pytest.mark.parametrize("verdict", ["explained", "unexplained"])

@@ -81,5 +81,6 @@ held = diagnosis.shrink.held_out
 print(f"{1000 * held.before_MPa:.2f} → {1000 * held.after_MPa:.2f} kPa")
 
 # %%
-# With the whole catalogue, other pairs lead, and which one depends on the rate that is left
-# out: one specimen a rate does not settle it. :doc:`/measured-diagnoses` has all of it.
+# With the whole catalogue another spectrum leads: it describes the outer rates to their noise
+# and predicts the one between them. At a rate beyond those that were fitted it fails.
+# :doc:`/measured-diagnoses` has all of it.

@@ -74,7 +74,7 @@ class EvidenceSettings:
         175.0,
         "log evidence",
         "Most that the error of a form is let leave: what gains more in addition is not taken for a form's error.",
-        source="docs/laboratories.md: university, seed 51001; industry, seed 51002; gains up to 3500",
+        source="docs/laboratories-seeds.md: university, seed 51001; industry, seed 51002; gains up to 3500",
     )
     credible_set: float = chosen(0.95, "probability", "Probability that an answer set holds.")
     discrepancy_softness: tuple[float, ...] = chosen(

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.detection.strain_periodic import likely_periods
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
 if TYPE_CHECKING:
@@ -38,21 +37,21 @@ _PHASE = EffectParameter(
     period=np.pi,
     reason="any; with a signed amplitude it repeats itself after half a turn",
 )
-_PITCH = EffectParameter(
-    name="period_of_travel",
+_PERIODS = EffectParameter(
+    name="periods_in_record",
     unit="",
-    lower=1e-4,
-    upper=2.0,
-    centre=0.05,
+    lower=5.0,
+    upper=1e5,
+    centre=20.0,
     scale=float("inf"),
     log=True,
-    reason="a turn of the screw, over the gauge length: any",
+    reason="some in the record at least: what has fewer is no wave, but a course that any slow effect may take",
 )
 _LASTING = EffectParameter(
     name="lasting_periods",
     unit="",
-    lower=0.3,
-    upper=100.0,
+    lower=1.0,
+    upper=30.0,
     centre=3.0,
     scale=1.0,
     log=True,
@@ -80,24 +79,15 @@ def _on_strain(view: RecordView, values: Values) -> FloatArray:
     return np.asarray(view.true_strain + wave - wave[0])
 
 
-def _on_travel(view: RecordView, values: Values) -> FloatArray:
-    """The travel reads a wave too much, once in so much travel: the specimen sees it less."""
-    size, period, phase = values
-    travel = np.expm1(view.recorded_strain)
-    wave = size * np.sin(2.0 * np.pi * travel / period + phase)
-    # Never down to a stretch of nothing: beyond any specimen, but not beyond a search.
-    return np.asarray(np.log(np.maximum(np.exp(view.true_strain) - (wave - wave[0]), 1e-3)))
-
-
 def _ringing(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """Every change of the rate sets off a wave of the force that dies out, as large as the change."""
-    size, frequency, phase, lasting = values
+    size, many, phase, lasting = values
     corners = np.array([0, *view.jumps, len(view) - 1])
     rates = np.diff(view.recorded_strain[corners]) / np.maximum(np.diff(view.time[corners]), 1e-300)
     changes = np.diff(rates, prepend=0.0)
     ring = np.zeros(len(view))
     for corner, change in zip(corners[:-1], changes / max(float(np.max(np.abs(changes))), 1e-300), strict=True):
-        periods = frequency * np.maximum(view.time - view.time[corner], 0.0)
+        periods = many / view.duration * np.maximum(view.time - view.time[corner], 0.0)
         begun = (view.time >= view.time[corner]) * change
         ring += begun * np.exp(-periods / lasting) * np.sin(2.0 * np.pi * periods + phase)
     return stress + size * ring * view.stretch
@@ -114,21 +104,14 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     return [(frequency, phase) for frequency in inside for phase in (0.0, 0.5 * np.pi)]
 
 
-def _turns(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """Peaks of the residuals' power over the travel, or some turns in the longest record; sine and cosine."""
-    travels = [view.sampled(np.expm1(view.recorded_strain)) for view in views]
-    if residuals is None:
-        longest = max(float(np.ptp(travel)) for travel in travels)
-        periods = [longest / turns for turns in _CYCLES]
-    else:
-        periods = likely_periods(travels, residuals, _PEAKS)
-    inside = [float(np.clip(period, _PITCH.lower, _PITCH.upper)) for period in periods]
-    return [(period, phase) for period in inside for phase in (0.0, 0.5 * np.pi)]
-
-
 def _rings(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """Those of a wave, lasting as many periods as is usual."""
-    return [(*start, _LASTING.centre) for start in _starts(views, residuals)]
+    """Those of a wave, which lasts as many periods as is usual."""
+    longest = max(view.duration for view in views)
+    waves = [
+        (float(np.clip(frequency * longest, _PERIODS.lower, _PERIODS.upper)), phase)
+        for frequency, phase in _starts(views, residuals)
+    ]
+    return [(*wave, _LASTING.centre) for wave in waves]
 
 
 def _peaks(view: RecordView, residual: FloatArray) -> list[float]:
@@ -157,13 +140,10 @@ EFFECT = Effect(
     name="periodic_disturbance",
     title="periodic disturbance",
     physics=(
-        "A screw, a pump, the mains or a frame that rings adds a wave to the force, the stress, the strain or travel.\n"
+        "A screw, a pump, the mains or a frame that rings adds a wave to the force, the stress or the strain.\n"
         "Amplitude: of the wave; its phase is counted from the start of each record."
     ),
-    source=(
-        "André et al., Figure 2 (vibration in experiment 1); ASTM E1942; ISO 230-2 (a screw's pitch); Den Hartog 1934, "
-        "Mechanical Vibrations"
-    ),
+    source="André et al., Figure 2 (vibration in experiment 1); ASTM E1942; Den Hartog 1934, Mechanical Vibrations",
     shows_in="a wave in the residual; the records of one machine share its frequency, not its phase",
     kind="rig",
     coordinate="time",
@@ -191,22 +171,16 @@ EFFECT = Effect(
             converts=False,
         ),
         Form(
-            "travel",
-            (
-                EffectParameter("travel_wave", "", -0.05, 0.05, 5e-4, "some hundredths of a mm in 25 to 100 mm"),
-                _PITCH,
-                _PHASE,
-            ),
-            driving_strain=_on_travel,
-            starts=_turns,
-            sharp="line",
-            variant=True,
-        ),
-        Form(
             "ringing",
-            (*_parameters(EffectParameter("wave_MPa", "MPa", -20.0, 20.0, 0.2, "some tenths of a MPa")), _LASTING),
+            (
+                EffectParameter("wave_MPa", "MPa", -20.0, 20.0, 0.2, "some tenths of a MPa"),
+                _PERIODS,
+                _PHASE,
+                _LASTING,
+            ),
             recorded_stress=_ringing,
             starts=_rings,
+            placements=("one",),
             sharp="line",
             variant=True,
         ),
