@@ -167,3 +167,20 @@ def test_a_jump_begins_where_the_command_changes_and_not_where_the_drive_has_fol
     command = 5e-4 * time + 2e-3 * np.maximum(time - time[200], 0.0)
     noisy = followed(time, command, 8.0 * time[1]) + 3e-5 * np.random.default_rng(seed).standard_normal(400)
     assert excite(record(time, noisy)).jumps == pytest.approx((200,), abs=4)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_one_jump_is_one_where_samples_lie_far_apart_before_it_and_close_together_after_it(seed):
+    """Two speeds of a crosshead: no parabola follows the true strain over 16 samples of 120 s, a straight line does the
+    nominal one. Two jumps in its place were a lag of the machine, and the strain swung by 0.06 between samples.
+    """
+    random = np.random.default_rng(seed)
+    steps = np.append(120.0 * random.uniform(0.6, 1.5, 46), 35.0 * random.uniform(0.6, 1.5, 180))
+    time = np.append(0.0, np.cumsum(steps))
+    change = time[46] - 0.7 * steps[45]
+    travel = 1.3e-4 * np.minimum(time, change) + 1.3e-5 * np.maximum(time - change, 0.0)
+    strain = np.log1p(travel) + 5e-6 * random.standard_normal(len(time))
+    driven = excite(record(time, strain))
+    assert driven.jumps in ((45,), (46,))
+    fine = driven.refined(8).true_strain
+    assert np.all(np.diff(fine) > -1e-4)

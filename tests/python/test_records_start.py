@@ -167,6 +167,15 @@ def test_what_a_trigger_lost_is_restored_unasked(late, strain_noise, error):
     assert any("is put before the first sample" in warning for warning in record.warnings)
 
 
+def test_what_a_trigger_lost_is_restored_where_the_stress_bends_between_the_first_samples():
+    """Two seconds apart, two fifths of the longest time: a line through the first stresses comes from too far back."""
+    fine, time = np.linspace(0.0, 62.0, 6201), np.arange(0.0, 60.0, 2.0)
+    stress = np.interp(time + 1.5, fine, LAW.stress(fine, RATE * fine, "sa3"))
+    stress += np.random.default_rng(2).normal(0.0, 0.04, len(time))
+    started = as_started(Record("a", time, RATE * (time + 1.5), stress, control="strain-rate"))
+    assert started.time[0] == pytest.approx(-1.5, abs=1e-6)
+
+
 @pytest.mark.parametrize(
     "record",
     [

@@ -118,15 +118,23 @@ def _lost_before_the_first_sample(record: Record) -> tuple[float, float] | None:
     rate, reached = np.polyfit(time, strain[:at_most], 1)
     if not rate:  # steps of the extensometer may hide the first strains
         return None
-    by_force, by_strain = float(first / loading), float(reached / rate)
+    by_force, by_strain = (float(first / loading), _since_zero(time, stress)), float(reached / rate)
     noise = noise_level(record.time, strain)
     error = noise * np.sqrt((1.0 + np.mean(time) ** 2 / np.var(time)) / len(time)) / abs(rate)
-    # The stress bends from the start: its line comes from too far back.
-    bend = READING.start_bend * abs(by_force)
+    # The stress bends from the start: its line comes from too far back. A parabola does not, but takes in more noise.
     shown = by_strain > READING.start_noise * error
     recent = by_strain < READING.start_intervals * float(np.median(np.diff(time)))
-    agree = abs(by_strain - by_force) <= READING.start_noise * error + bend
+    agree = any(
+        abs(by_strain - each) <= READING.start_noise * error + READING.start_bend * abs(each) for each in by_force
+    )
     return (by_strain, float(rate)) if shown and recent and agree else None
+
+
+def _since_zero(time: FloatArray, values: FloatArray) -> float:
+    """How long before the first sample a parabola through the first three meets zero [s]; NaN if it does not."""
+    roots = np.roots(np.polyfit(time[:3], values[:3], 2))
+    before = [-float(root.real) for root in roots if abs(root.imag) == 0.0 and root.real < 0.0]
+    return min(before, default=float("nan"))
 
 
 def _line_before(record: Record) -> tuple[float, float] | None:

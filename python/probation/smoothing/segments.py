@@ -243,6 +243,10 @@ def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, i
     t, y = (time[part] - time[before]) / (time[part][-1] - time[before]), values[part]
     places = range(max(jump - before - 2, 1), min(jump - before + 3, len(t) - 1))
     corner = min(_left(t, y, t[at], degree) for at in places for degree in ((1, 2) if bends else (1,)))
+    if not bends:
+        stretch = np.exp(y)
+        nominal = min(_left(t, stretch, t[at], 1) for at in places) / float(np.mean(stretch**2))
+        corner = min(corner, nominal)  # at a constant speed of the crosshead it is the nominal strain that is straight
     interval = float(np.median(np.diff(t[: SMOOTHING.border_samples + 1])))
     fading = (np.exp(-t / (lag * interval)) for lag in SMOOTHING.lag_times)
     powers = np.vander(t, 4 if bends else 3)

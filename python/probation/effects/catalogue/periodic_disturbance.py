@@ -143,7 +143,7 @@ EFFECT = Effect(
         "A screw, a pump, the mains or a frame that rings adds a wave to the force, the stress or the strain.\n"
         "Amplitude: of the wave; its phase is counted from the start of each record."
     ),
-    source="André et al., Figure 2 (vibration in experiment 1); ASTM E1942; Den Hartog 1934, Mechanical Vibrations",
+    source="André et al., Figure 2 (vibration in experiment 1); ASTM E1942; den Hartog 1934, Mechanical Vibrations",
     shows_in="a wave in the residual; the records of one machine share its frequency, not its phase",
     kind="rig",
     coordinate="time",
