@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,7 +23,7 @@ from probation.inference.thinning import thin
 from probation.origin import commit
 from probation.records.campaign import Campaign
 from probation_studies.blind.layout import Layout
-from probation_studies.blind.scores.answer import Answer
+from probation_studies.blind.scores.answer import NO_ANSWER
 from probation_studies.blind.scores.board import false_alarms
 from probation_studies.blind.scores.case import Case
 from probation_studies.blind.seal import read_truth
@@ -55,15 +56,15 @@ def asked(layout: Layout) -> list[tuple[Case, Mapping[str, object]]]:
     found = {each["campaign"]: each for each in map(json.loads, lines)}
     nulls = []
     for truth in sorted(layout.truths.glob("*-[0-9]*.json")):
-        case = Case(truth.stem, json.loads(read_truth(truth).text), Answer({}, {}, (), gap=False))
+        case = Case(truth.stem, json.loads(read_truth(truth).text), NO_ANSWER)
         if case.causes:
             continue
         if case.name not in found:
             found[case.name] = {"campaign": case.name, **gap_in(layout.campaigns / case.name)}
             with path.open("a") as file:
                 print(json.dumps(found[case.name]), file=file)
-        answer = Answer({}, {}, (), gap=bool(found[case.name]["gap"]))
-        nulls.append((Case(case.name, case.truth, answer), found[case.name]))
+        answer = replace(NO_ANSWER, gap=bool(found[case.name]["gap"]))
+        nulls.append((replace(case, answer=answer), found[case.name]))
     return nulls
 
 

@@ -106,6 +106,7 @@ def test_a_perfect_solver_scores_everything():
     assert scores["false_alarms"]["k"] == 0
     assert scores["detection"]["15"]["rate"] == 1.0
     assert scores["unknown"]["auroc"] == scores["unknown"]["auroc_clear"] == 1.0
+    assert 0.0 <= scores["unknown"]["level_at_5_percent_false_alarms"] < 1.0
     assert scores["where"]["mean_overlap"] == 1.0
     assert scores["where"]["right_record"]["rate"] == 1.0
     assert scores["exact_pairs"]["rate"] == 1.0

@@ -121,7 +121,7 @@ def _unknown(cases: Sequence[Case]) -> dict[str, object]:
     return {
         "auroc": area_under_curve([case.answer.unknown for case in outside], within),
         "auroc_clear": area_under_curve([case.answer.unknown for case in clear], within),
-        "level_at_5_percentfalse_alarms": level,
+        "level_at_5_percent_false_alarms": level,
         "found": Rate.of(case.answer.unknown > level for case in outside).plain(),
         "found_clear": Rate.of(case.answer.unknown > level for case in clear).plain(),
     }
