@@ -10,7 +10,9 @@ copy does not hand back in good time is worked out here.
 
 from __future__ import annotations
 
+import gc
 import os
+import pickle
 import signal
 import sys
 import threading
@@ -20,7 +22,8 @@ from contextlib import contextmanager, suppress
 from functools import wraps
 from multiprocessing import Pipe, parent_process
 from multiprocessing.connection import Connection, wait
-from typing import TYPE_CHECKING, Any, NoReturn, ParamSpec, TypeVar
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any, NoReturn, ParamSpec, Self, TypeVar
 
 from threadpoolctl import threadpool_limits
 
@@ -116,7 +119,8 @@ def in_parallel(
             with _numbers(len(items)) as numbers, _copies(work, items, numbers, copies) as connections:
                 while connections and (number := _next(numbers)):
                     here(number - 1)
-                    _receive(connections, finish, 0.0)
+                    while _receive(connections, finish, 0.0):
+                        pass
                 while connections and len(done) < len(items):
                     if not _receive(connections, finish, max(PATIENCE, 3.0 * longest)):
                         here(next(number for number in range(len(items)) if number not in done))
@@ -212,19 +216,49 @@ def _work_as_a_copy(
             each.close()
         # Streams without a lock that another thread may have had.
         sys.stdout, sys.stderr = (open(number, "w", 1, closefd=False) for number in (1, 2))  # noqa: SIM115
-        while number := _next(numbers):
-            try:
-                result = _fresh(work, items[number - 1])
-            except Exception:
-                continue
-            try:
-                results.send((number - 1, result))
-            except OSError:  # the first process is gone
-                break
-            except Exception:
-                continue
+        gc.freeze()  # a look at all objects that the two processes share would copy them
+        with _Sender(results) as sender:
+            while (number := _next(numbers)) and sender.heard:
+                with suppress(Exception):
+                    sender.send((number - 1, _fresh(work, items[number - 1])))
     finally:
         os._exit(0)  # without what this process would do at its end: that is the first one's
+
+
+class _Sender:
+    """Hands results back from a thread: the first process takes them only between two items of its own.
+
+    Attributes
+    ----------
+    heard : bool
+        Whether the first process is still there.
+    """
+
+    def __init__(self, connection: Connection[Any, Any]) -> None:
+        self.heard = True
+        self._connection = connection
+        self._results: SimpleQueue[bytes | None] = SimpleQueue()
+        self._thread = threading.Thread(target=self._work, daemon=True)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._results.put(None)
+        self._thread.join()
+
+    def send(self, result: object) -> None:
+        """Put a result on its way; what cannot be pickled fails here."""
+        self._results.put(pickle.dumps(result, pickle.HIGHEST_PROTOCOL))
+
+    def _work(self) -> None:
+        while (result := self._results.get()) is not None:
+            try:
+                self._connection.send_bytes(result)
+            except OSError:
+                self.heard = False
+                return
 
 
 def _receive(connections: list[Connection[Any, Any]], finish: Callable[[int, Any], None], seconds: float) -> bool:

@@ -11,13 +11,16 @@ import probation
 from campaigns.few_records import damage, few_records, offset
 from probation.diagnosis import diagnose
 from probation.diagnosis.causes import causes_of
+from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.search import Search, _first_of_each
 from probation.effects.cause import Cause
 from probation.effects.registry import effect, effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
-from probation.inference.candidate import cause_key
+from probation.inference.candidate import WhitenedColumns, cause_key, screened
 from probation.inference.refit import MOST_STEPS, refit
+from probation.inference.remembering import RememberingModel
+from probation.inference.screen import screen
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of
 from probation.records.record import Noise
@@ -124,7 +127,8 @@ def test_nothing_less_beats_what_leads_in_the_end(made, monkeypatch):
     judged = []
     for smaller, start in jobs:
         try:
-            found = search._weighed(search._refit(smaller, start, MOST_STEPS))
+            fit = search._refit(smaller, start, MOST_STEPS)
+            found = Hypothesis(fit, search._evidence(fit))
         except UNSOLVABLE:
             continue
         judged.append(found.as_reached(search.found[0]).evidence.log_evidence)
@@ -225,3 +229,50 @@ def test_variants_of_a_form_are_for_the_search_and_not_for_the_test_for_a_gap():
     assert variants.isdisjoint(column.cause.form.name for column in base.signals)
     sought = {column.cause.form.name for column in base.columns_with_starts(chosen).columns}
     assert sought == {form.name for each in chosen for form in each.forms}
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_candidates_record_by_record_are_those_of_the_columns(shared):
+    """Where records are of one specimen, too: then what is white in one of them is not white beside the others."""
+    campaign = specimens_that_differ()
+    if shared:
+        records = [replace(record, specimen_id=record.id[-1]) for record in campaign.records]
+        campaign = replace(campaign, records=tuple(records))
+    base = base_fit(campaign, plain_fit(campaign))
+    assert bool(base.whitener.shared[0].shape[1]) == shared
+    span = span_of(base.refit.jacobian)
+    residual = base.model.residual(base.parameters)
+    columns = screen(base.model, base.parameters, effects(), residual=residual)
+    expected = WhitenedColumns.of(columns, base.whitener, len(residual)).candidates(base.refit.residual, span)
+    found = screened(
+        base.model, base.parameters, effects(), whitener=base.whitener, residual=base.refit.residual, span=span
+    )
+    assert len(found) == len(expected) > 300
+    found.sort(key=_place)
+    expected.sort(key=_place)
+    largest = max(each.gain for each in expected)
+    for one, other in zip(found, expected, strict=True):
+        assert cause_key(one.cause) == cause_key(other.cause)
+        assert one.gain == pytest.approx(other.gain, rel=1e-6, abs=1e-6 * largest)
+        assert one.values == pytest.approx(other.values, rel=1e-6, abs=1e-9)
+
+
+def _place(candidate):
+    return *map(str, cause_key(candidate.cause)), candidate.values[1:], candidate.gain
+
+
+def test_a_refit_with_another_noise_solves_nothing_again(monkeypatch):
+    campaign = two_effects()
+    base = base_fit(campaign, plain_fit(campaign))
+    plain = base.model.with_causes([Cause(effect("damage"), effect("damage").forms[0])])
+    start = plain.parameters(base.parameters, (0.1, *plain.causes[0].form.typical[1:]))
+    model = RememberingModel(plain)
+    ended = refit(base.problem.with_model(model), start)
+    noises = [noise.scaled(2.0) for noise in base.whitener.noises]
+    expected = refit(base.problem.with_noises(noises).with_model(plain), ended.parameters, most_steps=0)
+    monkeypatch.setattr(model.law, "sensitivity", None)
+    monkeypatch.setattr(model.law, "stress", None)
+    again = refit(base.problem.with_noises(noises).with_model(model), ended.parameters, most_steps=0)
+    np.testing.assert_array_equal(again.residual, expected.residual)
+    np.testing.assert_array_equal(again.jacobian, expected.jacobian)
+    assert again.chi_square == pytest.approx(ended.chi_square / 4.0, rel=1e-9)

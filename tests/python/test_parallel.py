@@ -103,6 +103,19 @@ def test_copies_end_when_this_process_is_interrupted():
     assert time.monotonic() - started < 30.0
 
 
+def test_a_copy_goes_on_while_this_process_is_busy():
+    """Results larger than a pipe holds wait there; the copy does not."""
+
+    def work(_):
+        if not in_a_copy():
+            time.sleep(1.0)
+        return os.getpid(), bytes(300_000)
+
+    results = in_parallel(work, range(12), 2)
+    assert [process for process, _ in results].count(FIRST) == 1
+    assert all(len(data) == 300_000 for _, data in results)
+
+
 def test_progress_counts_every_item_once():
     seen = []
     in_parallel(slowly, range(10), 3, seen.append)

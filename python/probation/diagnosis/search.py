@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from itertools import combinations, compress, product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -15,11 +15,11 @@ from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
 from probation.effects.cause import Cause
 from probation.inference.base_fit import specimens_hold_the_gap, with_joint_noise
-from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key
+from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key, screened
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_freedom
 from probation.inference.refit import MOST_STEPS, Ended, Refit, refit
-from probation.inference.screen import screen
+from probation.inference.remembering import RememberingModel
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of, without
 from probation.parallel import in_parallel
@@ -34,6 +34,9 @@ if TYPE_CHECKING:
     from probation.inference.evidence import Evidence
     from probation.inference.model import CampaignModel
     from probation.noise.whitening import Whitened
+
+    Job: TypeAlias = "tuple[CampaignModel, FloatArray | Refit]"
+    """A model, and where its refit begins."""
 
 
 _USUAL = 20
@@ -69,7 +72,7 @@ class Search:
     _taken_apart: set[frozenset[Key]] = field(default_factory=set)
 
     def __post_init__(self) -> None:
-        self.found.append(self._weighed(self.base.refit, unknown=True))
+        self.found.append(Hypothesis(self.base.refit, self._evidence(self.base.refit, unknown=True)))
 
     def run(self, columns: WhitenedColumns) -> list[Hypothesis]:
         """Singles, then combinations while something is left."""
@@ -88,10 +91,7 @@ class Search:
                 self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
-            for hypothesis in self._worth_extending(size, left):
-                if _keys(hypothesis.refit) not in extended:
-                    self._additions(hypothesis)
-                extended.add(_keys(hypothesis.refit))
+            self._extend(self._worth_extending(size, left), extended)
             if size == 1 and left:
                 self._swaps(extended)
             self._rivals_jointly()
@@ -180,10 +180,10 @@ class Search:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
 
     def _singles(self, columns: WhitenedColumns) -> None:
-        screened = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
+        started = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
         for start in self.base.other_starts if self.base.screens_other_starts else ():
-            screened += self._candidates_at(start)
-        candidates = self._credible(sorted(screened, key=lambda candidate: -candidate.gain), self.base.refit)
+            started += self._candidates_at(start)
+        candidates = self._credible(sorted(started, key=lambda candidate: -candidate.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))
         begun = self._refitted(self.base.refit, _alone(first), self.base.other_starts, SEARCH.first_steps)
         begun += self._refitted(self.base.refit, _promising_in_several(candidates), steps=SEARCH.first_steps)
@@ -222,15 +222,19 @@ class Search:
             residual, slopes = self.base.problem.residual_and_jacobian(start)
         except UNSOLVABLE:
             return []
-        columns = screen(model, start, self.effects, residual=model.residual(start), threads=self.threads)
-        white = WhitenedColumns.of(columns, self.base.whitener, len(residual))
         span = span_of(slopes)
+        candidates = screened(
+            model,
+            start,
+            self.effects,
+            whitener=self.base.whitener,
+            residual=residual,
+            span=span,
+            threads=self.threads,
+        )
         more, least = without(residual, span), without(base.residual, span_of(base.jacobian))
         worse = float(more @ more - least @ least)
-        return [
-            replace(candidate, base=start, gain=candidate.gain - worse)
-            for candidate in white.candidates(residual, span)
-        ]
+        return [replace(candidate, base=start, gain=candidate.gain - worse) for candidate in candidates]
 
     def _in_the_running(self, refits: Sequence[Refit]) -> tuple[list[Refit], list[Refit]]:
         """Which of unfinished refits may lead, by what they leave and by their evidence, and which are far behind.
@@ -263,17 +267,35 @@ class Search:
         best = min((fit.chi_square for fit in refits), default=np.inf)
         return float(best + (SEARCH.in_the_race - 1.0) * self._gap_left(refits) + SEARCH.slack)
 
-    def _additions(self, leading: Hypothesis, only: Cause | None = None) -> None:
-        """One more cause jointly with those of a hypothesis.
+    def _extend(self, leading: Iterable[Hypothesis], extended: set[frozenset[Key]]) -> None:
+        """One more cause jointly with those of hypotheses that were not `extended` yet."""
+        wanted = [hypothesis for hypothesis in leading if _keys(hypothesis.refit) not in extended]
+        self._additions([(hypothesis, None) for hypothesis in wanted])
+        extended.update(_keys(hypothesis.refit) for hypothesis in wanted)
 
-        With as many effects as an explanation may have, only one of these, in another record. With `only`, its effect
+    def _additions(self, wanted: Sequence[tuple[Hypothesis, Cause | None]]) -> None:
+        """One more cause jointly with those of each hypothesis.
+
+        With as many effects as an explanation may have, only one of these, in another record. With a cause, its effect
         in the same records, in any form.
         """
         if self.budget.spent():
-            self.skipping.part(f"a further effect jointly with {' and '.join(leading.effects)}", self.budget.why)
+            for leading, _ in wanted:
+                self.skipping.part(f"a further effect jointly with {' and '.join(leading.effects)}", self.budget.why)
             return
+        jobs = [self._jobs(leading.refit, self._worth_adding(leading, only)) for leading, only in wanted]
+        behind: list[Refit] = []
+        ahead: list[Refit] = []
+        for (leading, _), begun in zip(wanted, self._solved_in_groups(jobs, SEARCH.first_steps), strict=True):
+            least = _least_of_each_effect(begun, len(leading.causes))
+            kept = {id(fit) for fit in least}
+            behind += [fit for fit in begun if id(fit) not in kept]
+            ahead += least
+        self.found += self._judged([*behind, *self._further(ahead, MOST_STEPS)])
+
+    def _worth_adding(self, leading: Hypothesis, only: Cause | None) -> list[tuple[Candidate, ...]]:
+        """What is added to a hypothesis: every form of the best effects by itself, and one in several records."""
         model, at = leading.refit.model, leading.refit.parameters
-        raw = model.residual(at)
 
         def unsolved(cause: Cause, error: Exception) -> None:
             self.skipping.hypothesis([*leading.causes, cause], error)
@@ -281,29 +303,35 @@ class Search:
         effects = (
             self.effects if only is None else [effect for effect in self.effects if effect.name == only.effect.name]
         )
-        columns = screen(model, at, effects, residual=raw, threads=self.threads, unsolved=unsolved)
+        candidates = screened(
+            model,
+            at,
+            effects,
+            whitener=self.base.whitener,
+            residual=leading.refit.residual,
+            span=span_of(leading.refit.jacobian),
+            threads=self.threads,
+            unsolved=unsolved,
+        )
         taken = {(cause.effect.name, cause.records) for cause in leading.causes}
         once = {cause.effect.name for cause in leading.causes if not cause.form.several}
-        columns = [column for column in columns if (column.cause.effect.name, column.cause.records) not in taken]
-        columns = [column for column in columns if column.cause.form.several or column.cause.effect.name not in once]
-        if only is not None:
-            columns = [column for column in columns if column.cause.records == only.records]
-        elif len(leading.effects) >= SEARCH.most_effects:
-            columns = [column for column in columns if column.cause.effect.name in leading.effects]
-        white = WhitenedColumns.of(columns, self.base.whitener, len(raw))
-        ranked = self._credible(
-            white.candidates(leading.refit.residual, span_of(leading.refit.jacobian)), leading.refit
-        )
+
+        def may_be_added(cause: Cause) -> bool:
+            name = cause.effect.name
+            if (name, cause.records) in taken or (name in once and not cause.form.several):
+                return False
+            if only is not None:
+                return cause.records == only.records
+            return len(leading.effects) < SEARCH.most_effects or name in leading.effects
+
+        possible = [candidate for candidate in candidates if may_be_added(candidate.cause)]
+        ranked = self._credible(possible, leading.refit)
         chosen = _forms_of_the_best(
             [candidate for candidate in ranked if candidate.gain > SEARCH.worth_refitting], SEARCH.additions
         )
         most = max((candidate.gain for candidate in ranked), default=0.0)
         several = [together for together in _in_several(ranked) if only is None and _gain(together) > most]
-        begun = self._refitted(leading.refit, [*_alone(chosen), *several], steps=SEARCH.first_steps)
-        ahead = _least_of_each_effect(begun, len(leading.causes))
-        kept = {id(fit) for fit in ahead}
-        self.found += self._judged([fit for fit in begun if id(fit) not in kept])
-        self.found += self._judged(self._further(ahead, MOST_STEPS))
+        return [*_alone(chosen), *several]
 
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
@@ -362,10 +390,9 @@ class Search:
             parts = self._judged(self._solved(jobs, MOST_STEPS))
             self.found += parts
             once = [cause for cause in causes if sum(other.effect is cause.effect for other in causes) == 1]
-            for cause in once:
-                without_it = [hypothesis for hypothesis in parts if _keys(hypothesis.refit) == key - {cause_key(cause)}]
-                if without_it:
-                    self._additions(without_it[0], cause)
+            of = {_keys(hypothesis.refit): hypothesis for hypothesis in reversed(parts)}
+            without = [(of.get(key - {cause_key(cause)}), cause) for cause in once]
+            self._additions([(part, cause) for part, cause in without if part is not None])
             self._try_with_unknown()
 
     def _begun_anew(self) -> None:
@@ -398,11 +425,8 @@ class Search:
 
         Not from a cause that was `extended` already.
         """
-        for name in pairs[0].effects if (pairs := self.ranked(2)) else ():
-            alone = next((hypothesis for hypothesis in self.ranked(1) if hypothesis.effects == (name,)), None)
-            if alone is not None and _keys(alone.refit) not in extended:
-                self._additions(alone)
-                extended.add(_keys(alone.refit))
+        if pairs := self.ranked(2):
+            self._extend([each for each in self.ranked(1) if each.effects[0] in pairs[0].effects], extended)
 
     def _each_by_itself(self, singles: Sequence[Refit]) -> list[Refit]:
         """Faults of the force that leave something if they are alike in all records, with sizes of their own in each.
@@ -458,7 +482,13 @@ class Search:
 
         Every item of `added` is what is added at once: a candidate, or those of one effect in several records.
         """
-        jobs = []
+        return self._solved(self._jobs(before, added, other_starts), steps)
+
+    def _jobs(
+        self, before: Refit, added: Iterable[Sequence[Candidate]], other_starts: Sequence[FloatArray] = ()
+    ) -> list[Job]:
+        """The same refits, not begun yet."""
+        jobs: list[Job] = []
         for together in added:
             causes = [*before.model.causes, *(candidate.cause for candidate in together)]
             if (model := self._with_causes(before.model, causes)) is None:
@@ -466,7 +496,7 @@ class Search:
             own = together[0].base
             begun = (before.parameters, *other_starts) if own is None else (own,)
             jobs += [(model, np.concatenate([start, *(candidate.values for candidate in together)])) for start in begun]
-        return self._solved(jobs, steps)
+        return jobs
 
     def _with_causes(self, model: CampaignModel, causes: Sequence[Cause]) -> CampaignModel | None:
         """A model with these causes instead of its own; None, and noted, where it cannot hold them together."""
@@ -482,11 +512,17 @@ class Search:
             return list(refits)
         return self._solved([(fit.model, fit) for fit in refits], steps)
 
-    def _solved(self, jobs: Sequence[tuple[CampaignModel, FloatArray | Refit]], steps: int) -> list[Refit]:
+    def _solved(self, jobs: Sequence[Job], steps: int) -> list[Refit]:
         """Refits from models and starts; without those that the law cannot follow from there."""
+        [solved] = self._solved_in_groups([jobs], steps)
+        return solved
+
+    def _solved_in_groups(self, groups: Sequence[Sequence[Job]], steps: int) -> list[list[Refit]]:
+        """The same of several groups, all at once."""
+        jobs = [job for group in groups for job in group]
         nothing_yet = len(self.found) == 1
 
-        def one(numbered: tuple[int, tuple[CampaignModel, FloatArray | Refit]]) -> Ended | str:
+        def one(numbered: tuple[int, Job]) -> Ended | str:
             number, (model, start) = numbered
             if self.budget.spent() and not (nothing_yet and number == 0):
                 return self.budget.why
@@ -495,14 +531,15 @@ class Search:
             except UNSOLVABLE as error:
                 return str(error)
 
-        solved = []
-        for (model, _), ended in zip(
-            jobs, in_parallel(one, list(enumerate(jobs)), self.threads, self._moved), strict=True
-        ):
-            if isinstance(ended, str):
-                self.skipping.hypothesis(model.causes, ended)
-            else:
-                solved.append(Refit.of(self.base.problem.with_model(model), ended))
+        all_ended = iter(in_parallel(one, list(enumerate(jobs)), self.threads, self._moved))
+        solved: list[list[Refit]] = []
+        for group in groups:
+            solved.append([])
+            for (model, _), ended in zip(group, all_ended, strict=False):
+                if isinstance(ended, str):
+                    self.skipping.hypothesis(model.causes, ended)
+                else:
+                    solved[-1].append(Refit.of(self.base.problem.with_model(model), ended))
         return solved
 
     def _refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
@@ -513,12 +550,17 @@ class Search:
         of specimens that differ would leave more, unless there it explains less than no effect does: a fault in one
         record pulls the law of specimens that are alike. Elsewhere a refit of specimens that differ comes first.
         """
-        problem, noises = self.base.problem.with_model(model), self.base.alike.noises
         if not self.base.scatter.any:
-            return refit(problem, start, most_steps=steps)
-        first = start.parameters if isinstance(start, Refit) else start
-        with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
-            misfit = float(np.sum(problem.residual(first) ** 2))
+            return refit(self.base.problem.with_model(model), start, most_steps=steps)
+        model = RememberingModel(model)
+        problem, noises = self.base.problem.with_model(model), self.base.alike.noises
+        if isinstance(start, Refit):
+            start = replace(start, problem=problem)
+            first, misfit = start.parameters, start.chi_square
+        else:
+            first = start
+            with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
+                misfit = float(np.sum(problem.residual_and_jacobian(first)[0] ** 2))
         if misfit <= len(self.base.whitened) + SEARCH.strong_gap:
             fit = refit(problem, start, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, first, fit.parameters):
@@ -590,15 +632,15 @@ class Search:
 
         def one(fit: Refit) -> Evidence | str:
             try:
-                return self._weighed(fit).evidence
+                return self._evidence(fit)
             except UNSOLVABLE as error:
                 return str(error)
 
         return in_parallel(one, refits, self.threads)
 
-    def _weighed(self, fit: Refit, *, unknown: bool = False) -> Hypothesis:
+    def _evidence(self, fit: Refit, *, unknown: bool = False) -> Evidence:
         forms = form_freedom(fit, self.base.whitener)
-        return Hypothesis(fit, evidence(fit, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown))
+        return evidence(fit, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown)
 
     def _try_with_unknown(self) -> None:
         """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""
@@ -607,13 +649,11 @@ class Search:
             *self.ranked(1)[: SEARCH.fewer_with_unknown],
             *self.ranked(2)[: SEARCH.fewer_with_unknown],
         ]
-        leading = {id(hypothesis) for hypothesis in ahead}
-        self.found = [
-            self._weighed(hypothesis.refit, unknown=True)
-            if id(hypothesis) in leading and not np.isfinite(hypothesis.evidence.log_evidence_unknown)
-            else hypothesis
-            for hypothesis in self.found
-        ]
+        untried = {id(known): known for known in ahead if not np.isfinite(known.evidence.log_evidence_unknown)}
+        refits = [hypothesis.refit for hypothesis in untried.values()]
+        evidences = in_parallel(lambda fit: self._evidence(fit, unknown=True), refits, self.threads)
+        weighed = dict(zip(untried, map(Hypothesis, refits, evidences), strict=True))
+        self.found = [weighed.get(id(hypothesis), hypothesis) for hypothesis in self.found]
 
     def _begin(self, low: float, high: float) -> None:
         """Another phase of the search, and what part of it that is; one that is on goes on."""

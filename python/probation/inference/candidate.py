@@ -7,15 +7,18 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from probation.inference.screen import onsets
 from probation.noise.span import without
 from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
-    from probation.inference.screen import Column
+    from probation.effects.effect import Effect
+    from probation.inference.model import CampaignModel
+    from probation.inference.screen import Column, Onset
     from probation.noise.whitener import Whitener
 
 Key: TypeAlias = "tuple[str, str, tuple[str, ...] | None]"
@@ -58,7 +61,7 @@ class WhitenedColumns:
     @classmethod
     def of(cls, columns: Sequence[Column], whitener: Whitener, count: int) -> WhitenedColumns:
         """Whiten a screen's columns; `count` is the number of stacked samples."""
-        matrix = np.zeros((count, len(columns)))
+        matrix = np.zeros((count, len(columns)), order="F")
         for index, column in enumerate(columns):
             matrix[column.rows, index] = column.slope
         return cls(columns, whitener.columns(matrix))
@@ -91,22 +94,77 @@ class WhitenedColumns:
         span : ndarray, shape (N, p)
             Orthonormal basis of what a refit of the present model may change.
         """
-        left = without(residual, span)
-        along = self.matrix.T @ left
-        square = np.sum(self.matrix**2, axis=0) - np.sum((span.T @ self.matrix) ** 2, axis=0)
-        candidates = []
-        for column, slope, size in zip(self.columns, along.tolist(), square.tolist(), strict=True):
-            amplitude = column.cause.form.amplitude
-            wanted = -slope / max(size + amplitude.scale**-2.0, 1e-300)
-            wanted = float(np.clip(wanted, amplitude.lower, amplitude.upper))
-            gain = -(2.0 * wanted * slope + wanted**2 * size)
-            if column.cause.form.threshold:
-                start = column.values[0]
-            else:
-                largest = SEARCH.largest_start * amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
-                start = float(np.clip(wanted, -largest, largest))
-            candidates.append(Candidate(column.cause, (start, *column.values[1:]), gain))
-        return sorted(candidates, key=lambda candidate: -candidate.gain)
+        along = self.matrix.T @ without(residual, span)
+        square = np.einsum("ij,ij->j", self.matrix, self.matrix) - np.sum((span.T @ self.matrix) ** 2, axis=0)
+        return _ranked(self.columns, along, square)
+
+
+def screened(
+    model: CampaignModel,
+    parameters: FloatArray,
+    effects: Iterable[Effect],
+    *,
+    whitener: Whitener,
+    residual: FloatArray,
+    span: FloatArray,
+    threads: int = 1,
+    unsolved: Callable[[Cause, Exception], None] | None = None,
+) -> list[Candidate]:
+    """The candidates of a screen whose columns nobody else needs; starts are read from the model's own residual.
+
+    What a candidate is ranked by adds up over the records, so that each is worked on by itself.
+
+    Parameters
+    ----------
+    model, parameters, effects, threads, unsolved
+        As in `screen.onsets`.
+    whitener : Whitener
+    residual : ndarray, shape (N,)
+        Whitened.
+    span : ndarray, shape (N, p)
+        Orthonormal basis of what a refit of the model may change.
+    """
+    shared, more = whitener.shared
+    wanted = whitener.between_records(np.column_stack([without(residual, span), span]))
+    directions = np.hstack([wanted, shared])
+
+    def noted(index: int, slopes: FloatArray) -> FloatArray:
+        white = whitener.of_record(index, slopes)
+        return np.vstack([np.einsum("ij,ij->j", white, white), directions[whitener.slices[index]].T @ white])
+
+    found = onsets(
+        model,
+        parameters,
+        effects,
+        noted=noted,
+        residual=model.residual(parameters),
+        threads=threads,
+        unsolved=unsolved,
+    )
+    if not found:
+        return []
+    noted_of = np.stack([np.sum(onset.parts, axis=0) for onset in found], axis=1)
+    square, along = noted_of[:2]
+    followed, common = np.split(noted_of[2:], [span.shape[1]])
+    square = square + np.sum(common * (more @ common), axis=0) - np.sum(followed**2, axis=0)
+    return _ranked(found, along, square)
+
+
+def _ranked(columns: Sequence[Column | Onset], along: FloatArray, square: FloatArray) -> list[Candidate]:
+    """Candidates by what they gain, from products with the residual and squares, after the model's own refit."""
+    candidates = []
+    for column, slope, size in zip(columns, along.tolist(), square.tolist(), strict=True):
+        amplitude = column.cause.form.amplitude
+        wanted = -slope / max(size + amplitude.scale**-2.0, 1e-300)
+        wanted = float(np.clip(wanted, amplitude.lower, amplitude.upper))
+        gain = -(2.0 * wanted * slope + wanted**2 * size)
+        if column.cause.form.threshold:
+            start = column.values[0]
+        else:
+            largest = SEARCH.largest_start * amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
+            start = float(np.clip(wanted, -largest, largest))
+        candidates.append(Candidate(column.cause, (start, *column.values[1:]), gain))
+    return sorted(candidates, key=lambda candidate: -candidate.gain)
 
 
 def cause_key(cause: Cause) -> Key:

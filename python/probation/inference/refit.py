@@ -177,16 +177,15 @@ def refit(
     ConvergenceError
         If the law cannot be solved at the start.
     """
-    coordinates, tangent = Coordinates.of_model(problem.model), None
-    if isinstance(start, Refit):
-        same_noise = start.problem.whitener is problem.whitener and start.problem.moving is problem.moving
-        if start.problem.model is problem.model and same_noise:
-            tangent = start.residual, start.jacobian
-        start = start.parameters
+    coordinates = Coordinates.of_model(problem.model)
+    objective = SearchResidual(problem, coordinates)
+    first = start.parameters if isinstance(start, Refit) else np.asarray(start, dtype=np.float64)
+    first = np.clip(first, *coordinates.ends)
+    tangent = _known_tangent(problem, start)
     minimum = minimise(
-        SearchResidual(problem, coordinates),
-        coordinates.of(np.asarray(start, dtype=np.float64)),
-        tangent=tangent,
+        objective,
+        coordinates.of(first),
+        tangent=objective.tangent_at(first) if tangent is None else tangent,
         bounds=coordinates.bounds,
         prior=coordinates.prior,
         held=held,
@@ -196,6 +195,14 @@ def refit(
     )
     parameters = coordinates.parameters(minimum.x)
     return Refit(problem, parameters, minimum.residual, minimum.jacobian, coordinates, minimum.steps)
+
+
+def _known_tangent(problem: Problem, start: FloatArray | Refit) -> tuple[FloatArray, FloatArray] | None:
+    """The residual and its derivatives where a search begins, if another one of the same problem ended there."""
+    if not isinstance(start, Refit) or start.problem.model is not problem.model:
+        return None
+    same_noise = start.problem.whitener is problem.whitener and start.problem.moving is problem.moving
+    return (start.residual, start.jacobian) if same_noise else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,6 +218,9 @@ class SearchResidual:
 
     def tangent(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Residual (N,) and its derivatives along the coordinates (N, p)."""
-        parameters = self.coordinates.parameters(x)
+        return self.tangent_at(self.coordinates.parameters(x))
+
+    def tangent_at(self, parameters: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The same at parameters."""
         residual, slopes = self.problem.residual_and_jacobian(parameters)
         return residual, slopes * self.coordinates.slopes(parameters)

@@ -1,4 +1,4 @@
-"""How the recorded stress answers to the onset of every effect: the columns of a score screen."""
+"""How the recorded stress answers to the onset of every effect: what a score screen asks of the model."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect, Form, Placement
@@ -20,6 +20,27 @@ if TYPE_CHECKING:
     from probation.inference.model import CampaignModel
 
 _Key: TypeAlias = tuple[str, str, tuple[float, ...]]
+
+
+@dataclass(frozen=True, eq=False)
+class Onset:
+    """What is noted of how the recorded stress answers to the amplitude of one cause at one start.
+
+    Attributes
+    ----------
+    cause : Cause
+    values : tuple of float
+        As in `Column`.
+    records : tuple of str
+        Where it acts.
+    parts : sequence of ndarray
+        Of each of these records.
+    """
+
+    cause: Cause
+    values: tuple[float, ...]
+    records: tuple[str, ...]
+    parts: Sequence[FloatArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,13 +69,55 @@ def screen(
     parameters: FloatArray,
     effects: Iterable[Effect],
     *,
-    residual: FloatArray | None = None,
     placements: tuple[Placement, ...] = ("all", "one"),
+    residual: FloatArray | None = None,
     threads: int = 1,
     unsolved: Callable[[Cause, Exception], None] | None = None,
     only: Callable[[Form], bool] | None = None,
 ) -> list[Column]:
-    """Columns of every effect, form, placement and start, on top of the model as it is.
+    """Columns of every effect, form, placement and start, on top of the model as it is; as `onsets` says.
+
+    Returns
+    -------
+    list of Column
+        In the order of the effects.
+    """
+    found = onsets(
+        model,
+        parameters,
+        effects,
+        noted=lambda _, slopes: slopes,
+        placements=placements,
+        residual=residual,
+        threads=threads,
+        unsolved=unsolved,
+        only=only,
+    )
+    everywhere = slice(0, len(model.data))
+    return [
+        Column(
+            onset.cause,
+            onset.values,
+            model.rows(onset.records[0]) if onset.cause.records else everywhere,
+            np.concatenate(onset.parts),
+        )
+        for onset in found
+    ]
+
+
+def onsets(
+    model: CampaignModel,
+    parameters: FloatArray,
+    effects: Iterable[Effect],
+    *,
+    noted: Callable[[int, FloatArray], FloatArray],
+    placements: tuple[Placement, ...] = ("all", "one"),
+    residual: FloatArray | None = None,
+    threads: int = 1,
+    unsolved: Callable[[Cause, Exception], None] | None = None,
+    only: Callable[[Form], bool] | None = None,
+) -> list[Onset]:
+    """What is `noted` of every effect, form, placement and start, on top of the model as it is.
 
     Effects that the law cannot follow, alone or together with those of the model, are left out; see
     `CampaignModel.missing_capabilities` and `clashes`. So are forms that the records could not show, and those with
@@ -66,10 +129,13 @@ def screen(
     parameters : ndarray, shape (n_parameters,)
         Of the model.
     effects : iterable of Effect
-    residual : ndarray, shape (n_samples,) [MPa], optional
-        Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
+    noted : callable
+        ``noted(index, slopes)``: a record's number and d stress / d amplitude along it [MPa per its unit], a column of
+        (n, m) for each cause and start; returns (k, m). It is called where the record is worked on.
     placements : tuple of {"all", "one"}
         With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
+    residual : ndarray, shape (n_samples,) [MPa], optional
+        Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
     threads : int
         Records are worked on in parallel.
     unsolved : callable, optional
@@ -79,7 +145,7 @@ def screen(
 
     Returns
     -------
-    list of Column
+    list of Onset
         In the order of the effects.
     """
     wanted: list[tuple[Cause, tuple[float, ...], tuple[RecordView, ...]]] = []
@@ -101,39 +167,43 @@ def screen(
                 failed.append((cause, error))
     base, active = model.split(parameters)
 
-    def answers(view: RecordView) -> dict[_Key, FloatArray | Exception]:
-        """The slopes of one record; a form at one start is worked out once, wherever it is placed."""
+    def answers(numbered: tuple[int, RecordView]) -> dict[_Key, FloatArray | Exception]:
+        """What is noted of one record; a form at one start is worked out once, wherever it is placed."""
+        index, view = numbered
         specimen, still = model.at_rest(view, base, active)
-        slopes: dict[_Key, FloatArray | Exception] = {}
+        slopes: dict[_Key, FloatArray] = {}
+        errors: dict[_Key, FloatArray | Exception] = {}
         for cause, values, views in wanted:
-            if view not in views or _key(cause, values) in slopes:
+            key = _key(cause, values)
+            if view not in views or key in slopes or key in errors:
                 continue
             form = cause.form
             size = values[0] if form.threshold else form.amplitude.step(0.0)
             try:
                 stress = model.with_one_more(view, base, active, cause, (size, *values[1:]), specimen)
-                slopes[_key(cause, values)] = view.sampled((stress - still) / size)
+                slopes[key] = view.sampled((stress - still) / size)
             except UNSOLVABLE as error:
-                slopes[_key(cause, values)] = error
-        return slopes
+                errors[key] = error
+        if not slopes:
+            return errors
+        return errors | dict(zip(slopes, noted(index, np.column_stack(list(slopes.values()))).T, strict=True))
 
-    slopes_of = dict(zip(model.views, in_parallel(answers, model.views, threads), strict=True))
-    columns = []
+    answers_of = dict(zip(model.views, in_parallel(answers, list(enumerate(model.views)), threads), strict=True))
+    found = []
     for cause, values, views in wanted:
         parts: list[FloatArray] = []
         for view in views:
-            part = slopes_of[view][_key(cause, values)]
+            part = answers_of[view][_key(cause, values)]
             if isinstance(part, Exception):
                 failed.append((cause, part))
                 break
             parts.append(part)
         else:
-            rows = model.rows(views[0].id) if cause.records else slice(0, len(model.data))
-            columns.append(Column(cause, values, rows, np.concatenate(parts)))
+            found.append(Onset(cause, values, tuple(view.id for view in views), parts))
     if unsolved is not None:
         for cause, why in failed:
             unsolved(cause, why)
-    return columns
+    return found
 
 
 def _key(cause: Cause, values: tuple[float, ...]) -> _Key:

@@ -40,22 +40,51 @@ class Whitener:
 
     def residual(self, residual: FloatArray) -> FloatArray:
         """L r of a stacked residual (N,), its outliers set aside."""
-        parts = zip(self.noises, self.slices, strict=True)
-        own = [noise.whiten(without_outliers(residual[part], noise.outliers)) for noise, part in parts]
-        return self._apart(np.concatenate(own))
+        own = [self.of_record(index, residual[part]) for index, part in enumerate(self.slices)]
+        return self.between_records(np.concatenate(own))
 
     def columns(self, matrix: FloatArray) -> FloatArray:
         """L times stacked columns (N, m), the outliers of the residual set aside in them, too."""
-        parts = zip(self.noises, self.slices, strict=True)
-        own = [noise.whiten(without_outliers(matrix[part], noise.outliers)) for noise, part in parts]
-        return self._apart(np.vstack(own))
+        white = np.empty_like(matrix)
+        for index, part in enumerate(self.slices):
+            block = matrix[part]
+            seen = block.any(axis=0)  # what acts in one record is nothing in the others
+            if seen.all():
+                white[part] = self.of_record(index, block)
+            else:
+                white[part, ~seen] = 0.0
+                if seen.any():
+                    white[part, seen] = self.of_record(index, block[:, seen])
+        return self.between_records(white)
 
-    def _apart(self, values: FloatArray) -> FloatArray:
-        """Columns (N,) or (N, m), each record white by itself, in coordinates in which all are white together."""
+    def of_record(self, index: int, values: FloatArray) -> FloatArray:
+        """One record's part of stacked columns (n,) or (n, m), white by itself."""
+        noise = self.noises[index]
+        return noise.whiten(without_outliers(values, noise.outliers))
+
+    def between_records(self, values: FloatArray) -> FloatArray:
+        """Columns (N,) or (N, m), each record white by itself, in coordinates in which all are white together.
+
+        A symmetric matrix times the columns, which it changes.
+        """
         for rows, basis, root in self._shared:
             own = values[rows]
             values[rows] = own + basis @ (root @ (basis.T @ own))
         return values
+
+    @cached_property
+    def shared(self) -> tuple[FloatArray, FloatArray]:
+        """Q (N, k), orthonormal, and B (k, k): what is white record by record has a square of 1 + Q B Q^T in all."""
+        widths = [root.shape[0] for _, _, root in self._shared]
+        directions = np.zeros((self.slices[-1].stop, sum(widths)))
+        more = np.zeros((sum(widths), sum(widths)))
+        at = 0
+        for (rows, basis, root), width in zip(self._shared, widths, strict=True):
+            own = slice(at, at + width)
+            directions[rows, own] = basis
+            more[own, own] = 2.0 * root + root @ root
+            at += width
+        return directions, more
 
     @cached_property
     def _shared(self) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
