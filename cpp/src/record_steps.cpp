@@ -139,11 +139,6 @@ bool form_steps_at_once(Scheme scheme, Start start, const History& history, cons
       const bool even = m - 1 + history.uniform_run(m - 1) >= end;
       for (Index k = m; scheme == Scheme::be2 && !even && k < end; ++k)
         if (out.ratio[static_cast<std::size_t>(k)] >= bdf2_largest_step_ratio) restart(k);
-      for (Index k = m; scheme == Scheme::sa3 && !even && k < end; ++k) {
-        if (h[k] < sa3_largest_step_ratio * h[k - 1] || history.fresh(k)) continue;
-        restart(k);
-        if (k + 1 < end && !history.fresh(k + 1)) form_curvature(k + 1, out);
-      }
     }
     m = end;
   }

@@ -19,20 +19,15 @@ PROBATION_INLINE Real parabolic_reduced_time(const StepData<Real>& s) {
   return s.h * (0.5 * (s.fluidity.here + s.fluidity.next) - (s.h * s.h / 6.0) * bend);
 }
 
-/// Whether a step follows a straight line: where the rate jumps, and where the step before is far shorter.
-PROBATION_INLINE bool sa3_is_straight(bool fresh, double ratio) {
-  return fresh || ratio >= sa3_largest_step_ratio;
-}
-
 /// The part of U that depends on the strain alone.
 template <class Real>
 PROBATION_INLINE Real sa3_stiff(const StepData<Real>& s) {
-  return sa3_is_straight(s.fresh, s.ratio) ? sa2_stiff(s) : modulus_work(s);
+  return s.fresh ? sa2_stiff(s) : modulus_work(s);
 }
 
 template <class Real, class Stiff>
 PROBATION_INLINE StepForcing<Real> sa3_step(const StepData<Real>& s, const Stiff& stiff) {
-  if (sa3_is_straight(s.fresh, s.ratio)) return sa2_step(s, stiff);
+  if (s.fresh) return sa2_step(s, stiff);
   Real scale = parabolic_reduced_time(s);
   if (!(scale > 0.0))
     return sa2_step(s, stiff);  // f fell by more than 13 times: the parabola dips below zero

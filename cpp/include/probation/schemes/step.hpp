@@ -54,10 +54,6 @@ struct Bdf2Difference {
 /// Above this ratio of two successive steps BDF2 is no longer zero-stable (1 + sqrt 2); it starts afresh.
 constexpr double bdf2_largest_step_ratio = 2.41;
 
-/// Above this ratio SA3 takes a straight line: its parabola carries an error of the step before on, as many
-/// times as large as the step is longer.
-constexpr double sa3_largest_step_ratio = 4.0;
-
 /// e^-x, and a choice, for doubles; the kernels overload both for SIMD vectors.
 PROBATION_INLINE double decay(double x) { return std::exp(-x); }
 PROBATION_INLINE double choose(bool first, double a, double b) { return first ? a : b; }
