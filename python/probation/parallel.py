@@ -216,9 +216,9 @@ def _work_as_a_copy(
             each.close()
         # Streams without a lock that another thread may have had.
         sys.stdout, sys.stderr = (open(number, "w", 1, closefd=False) for number in (1, 2))  # noqa: SIM115
-        gc.freeze()  # a look at all objects that the two processes share would copy them
+        gc.freeze()  # a collection would write to all objects that the processes share, and so copy them
         with _Sender(results) as sender:
-            while (number := _next(numbers)) and sender.heard:
+            while (number := _next(numbers)) and sender.connected:
                 with suppress(Exception):
                     sender.send((number - 1, _fresh(work, items[number - 1])))
     finally:
@@ -230,12 +230,12 @@ class _Sender:
 
     Attributes
     ----------
-    heard : bool
+    connected : bool
         Whether the first process is still there.
     """
 
     def __init__(self, connection: Connection[Any, Any]) -> None:
-        self.heard = True
+        self.connected = True
         self._connection = connection
         self._results: SimpleQueue[bytes | None] = SimpleQueue()
         self._thread = threading.Thread(target=self._work, daemon=True)
@@ -257,7 +257,7 @@ class _Sender:
             try:
                 self._connection.send_bytes(result)
             except OSError:
-                self.heard = False
+                self.connected = False
                 return
 
 

@@ -233,7 +233,7 @@ def test_variants_of_a_form_are_for_the_search_and_not_for_the_test_for_a_gap():
 
 @pytest.mark.parametrize("shared", [False, True])
 def test_candidates_record_by_record_are_those_of_the_columns(shared):
-    """Where records are of one specimen, too: then what is white in one of them is not white beside the others."""
+    """Where records are of one specimen, too: then what is white in one of them is not so jointly with the others."""
     campaign = specimens_that_differ()
     if shared:
         records = [replace(record, specimen_id=record.id[-1]) for record in campaign.records]

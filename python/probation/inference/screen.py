@@ -69,8 +69,8 @@ def screen(
     parameters: FloatArray,
     effects: Iterable[Effect],
     *,
-    placements: tuple[Placement, ...] = ("all", "one"),
     residual: FloatArray | None = None,
+    placements: tuple[Placement, ...] = ("all", "one"),
     threads: int = 1,
     unsolved: Callable[[Cause, Exception], None] | None = None,
     only: Callable[[Form], bool] | None = None,
@@ -87,8 +87,8 @@ def screen(
         parameters,
         effects,
         noted=lambda _, slopes: slopes,
-        placements=placements,
         residual=residual,
+        placements=placements,
         threads=threads,
         unsolved=unsolved,
         only=only,
@@ -111,8 +111,8 @@ def onsets(
     effects: Iterable[Effect],
     *,
     noted: Callable[[int, FloatArray], FloatArray],
-    placements: tuple[Placement, ...] = ("all", "one"),
     residual: FloatArray | None = None,
+    placements: tuple[Placement, ...] = ("all", "one"),
     threads: int = 1,
     unsolved: Callable[[Cause, Exception], None] | None = None,
     only: Callable[[Form], bool] | None = None,
@@ -132,10 +132,10 @@ def onsets(
     noted : callable
         ``noted(index, slopes)``: a record's number and d stress / d amplitude along it [MPa per its unit], a column of
         (n, m) for each cause and start; returns (k, m). It is called where the record is worked on.
-    placements : tuple of {"all", "one"}
-        With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
     residual : ndarray, shape (n_samples,) [MPa], optional
         Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
+    placements : tuple of {"all", "one"}
+        With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
     threads : int
         Records are worked on in parallel.
     unsolved : callable, optional

@@ -67,7 +67,7 @@ class Whitener:
 
         A symmetric matrix times the columns, which it changes.
         """
-        for rows, basis, root in self._shared:
+        for rows, basis, root in self._of_specimens:
             own = values[rows]
             values[rows] = own + basis @ (root @ (basis.T @ own))
         return values
@@ -75,11 +75,11 @@ class Whitener:
     @cached_property
     def shared(self) -> tuple[FloatArray, FloatArray]:
         """Q (N, k), orthonormal, and B (k, k): what is white record by record has a square of 1 + Q B Q^T in all."""
-        widths = [root.shape[0] for _, _, root in self._shared]
+        widths = [root.shape[0] for _, _, root in self._of_specimens]
         directions = np.zeros((self.slices[-1].stop, sum(widths)))
         more = np.zeros((sum(widths), sum(widths)))
         at = 0
-        for (rows, basis, root), width in zip(self._shared, widths, strict=True):
+        for (rows, basis, root), width in zip(self._of_specimens, widths, strict=True):
             own = slice(at, at + width)
             directions[rows, own] = basis
             more[own, own] = 2.0 * root + root @ root
@@ -87,7 +87,7 @@ class Whitener:
         return directions, more
 
     @cached_property
-    def _shared(self) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+    def _of_specimens(self) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
         """Of each specimen with several records its rows, a basis Q of them, and M: (I + S)^(-1/2) = I + Q M Q^T.
 
         S is the covariance from record to record; that within a record is white already.
