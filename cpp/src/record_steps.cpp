@@ -87,7 +87,7 @@ bool form_uneven_steps(Scheme scheme, const double* h, const RecordInputs<double
 void form_curvature(Index m, RecordSteps<double>& out) {
   const auto i = static_cast<std::size_t>(m);
   const double growth = out.scale[i] / out.scale[i - 1];
-  out.curvature[i] = growth / (1.0 + growth) * (out.forcing[i] - out.forcing[i - 1] * growth);
+  out.curvature[i] = bend_weight(growth) * (out.forcing[i] - out.forcing[i - 1] * growth);
 }
 
 }  // namespace

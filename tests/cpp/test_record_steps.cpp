@@ -28,12 +28,12 @@ Law law_by_rate() {
   return law;
 }
 
-/// Steps that differ, one of them four times as long as the one before, even ones at the end.
+/// Steps that differ, one of them six times as long as the one before, even ones at the end.
 ArrayXd steps_of_all_kinds() {
   ArrayXd time(600);
   time[0] = 0.0;
   for (Index i = 1; i < time.size(); ++i)
-    time[i] = time[i - 1] + (i == 40   ? 2.0
+    time[i] = time[i - 1] + (i == 40   ? 3.0
                              : i > 300 ? 0.5
                                        : 0.5 + 0.2 * std::sin(static_cast<double>(i * i)));
   return time;

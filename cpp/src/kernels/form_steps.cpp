@@ -36,7 +36,7 @@ PROBATION_INLINE void form_curvatures(long from, long to, const double* scale, c
                                       double* __restrict curvature) {
   for (long m = from; m < to; ++m) {
     const double growth = scale[m] / scale[m - 1];
-    curvature[m] = growth / (1.0 + growth) * (forcing[m] - forcing[m - 1] * growth);
+    curvature[m] = bend_weight(growth) * (forcing[m] - forcing[m - 1] * growth);
   }
 }
 
@@ -76,10 +76,10 @@ bool form_straight(const StepSamples& in, const FormedSteps& out) {
 
 bool form_parabolic(const StepSamples& in, const FormedSteps& out) {
   const double *h = in.h, *begin = in.begin, *end = in.end;
-  // parabolic_reduced_time(), its bend times h^2
+  // parabolic_reduced_time()
   const auto curved_scale = [h, begin, end](long m) {
     const double ratio = h[m] / h[m - 1];
-    const double bend = ratio / (1.0 + ratio) * ((end[m] - begin[m]) - ratio * (begin[m] - begin[m - 1]));
+    const double bend = bend_weight(ratio) * ((end[m] - begin[m]) - ratio * (begin[m] - begin[m - 1]));
     return h[m] * (0.5 * (begin[m] + end[m]) - (1.0 / 6.0) * bend);
   };
   bool positive = true;

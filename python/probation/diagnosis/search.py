@@ -198,10 +198,13 @@ class Search:
         polished += self._refitted(self.base.refit, _alone(more), self.base.other_starts)
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
-            self.found += self._judged(self._begun_jointly(single))
+            self.found += self._judged(self._begun_jointly([fit for fit in begun if len(fit.model.causes) == 1]))
 
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
-        """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both."""
+        """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both.
+
+        Also of faults that are far behind by themselves: the other one is why.
+        """
         jobs, residual = [], self.base.model.residual(self.base.refit.parameters)
         for one, other in combinations(_least_of_each([single for single in singles if _hidden(single)]).values(), 2):
             pair = one.model.causes[-1], other.model.causes[-1]

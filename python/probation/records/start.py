@@ -46,7 +46,7 @@ def as_started(record: Record, start: str = "auto") -> Record:
 
 def start_doubts(record: Record) -> tuple[str, ...]:
     """Question a first strain or stress that is far from zero, since the law starts relaxed there."""
-    if not (_is_far(record.time, record.true_strain) or _is_far(record.time, record.true_stress)):
+    if not (is_far(record.time, record.true_strain) or is_far(record.time, record.true_stress)):
         return ()
     restore = "" if _line_before(record) is None else 'if it is cut, say start = "loaded" in its [[record]]; '
     return (
@@ -95,7 +95,8 @@ def _with_line(record: Record, duration: float, rate: float) -> Record:
     return replace(record, **samples, warnings=(*record.warnings, note))
 
 
-def _is_far(time: FloatArray, values: FloatArray) -> bool:
+def is_far(time: FloatArray, values: FloatArray) -> bool:
+    """Whether the first of strains or stresses is no start from rest: far from zero, and beyond the noise."""
     first, largest = abs(float(values[0])), float(np.abs(values).max())
     return first > max(READING.far_start * largest, READING.start_noise * noise_level(time, values))
 

@@ -63,7 +63,8 @@ def smooth_segments(
         own = slice(keep.start - first, None)
         strain[keep], rate[keep] = part.true_strain[own], part.strain_rate[own]
         strain_error[keep], rate_error[keep] = part.strain_error[own], part.rate_error[own]
-    shares = []
+    shares: list[FloatArray] = []
+    corners: list[Operators] = []
     for jump, before, after in zip(jumps, parts, parts[1:], strict=False):
         bend = (after.strain_rate[0] - before.strain_rate[-1]) * (time[jump + 1] - time[jump - 1]) / 2.0
         # The jump is before the sample or after it, by up to an interval: each side is right half of the time.
@@ -74,6 +75,11 @@ def smooth_segments(
         strain[jump] = float(share @ [before.true_strain[-1], after.true_strain[0], true_strain[jump]])
         strain_error[jump] = float(precision.sum() ** -0.5)
         shares.append(share)
+        change = after.strain_rate[0] - before.strain_rate[-1]
+        corner = _uncertain_corner(time, jump, change, max(noise, SMOOTHING.clean))
+        strain_error = np.hypot(strain_error, np.linalg.norm(corner.strain, axis=1))
+        rate_error = np.hypot(rate_error, np.linalg.norm(corner.rate, axis=1))
+        corners.append(corner)
     used = float(sum(segment.used for segment in segments))
     return Smoothed(
         strain,
@@ -84,8 +90,27 @@ def smooth_segments(
         float(sum(part.squares for part in parts)),
         float(sum(segment.used * segment.smoothed.inflation for segment in segments)) / used,
         partial(_operators, segments, borders, shares),
-        partial(_errors, segments, borders, shares),
+        partial(_errors, segments, borders, shares, corners),
     )
+
+
+def _uncertain_corner(time: FloatArray, jump: int, change: float, noise: float) -> Operators:
+    """What is not known of where the rate changes, and how fast: the strain lags before the jump, or after it.
+
+    A deviation from the corner that begins so much earlier, or ends so much later, as the samples just do not show: a
+    triangle of height h over h/b of them, b the bend over one interval, has a squared size of h^3/3b, in units of the
+    noise. Higher than the noise of one sample it is not: the sample at the jump would show it.
+    """
+    since = time - time[jump]
+    bend = abs(change) * (time[jump + 1] - time[jump - 1]) / (2.0 * noise)
+    if bend == 0.0:
+        return Operators(np.zeros((len(time), 2)), np.zeros((len(time), 2)))
+    height = min((3.0 * bend) ** (1.0 / 3.0), 1.0)
+    reach = height * noise / abs(change)
+    inside = np.column_stack([(-reach < since) & (since <= 0.0), (since > 0.0) & (since < reach)])
+    strain = np.where(inside, height * (1.0 - np.abs(since)[:, None] / reach), 0.0)
+    rate = np.where(inside, np.array([1.0, -1.0]) * height / reach, 0.0)
+    return Operators(strain, rate)
 
 
 class _Segment:
@@ -183,12 +208,18 @@ def _operators(segments: Sequence[_Segment], borders: Sequence[int], shares: Seq
     return _joined(made, columns, borders[1:-1], borders[-1] + 1, borders, shares)
 
 
-def _errors(segments: Sequence[_Segment], borders: Sequence[int], shares: Sequence[FloatArray]) -> Operators:
-    """Of independent errors: those of the segments one after the other, then those of the samples at the jumps."""
+def _errors(
+    segments: Sequence[_Segment], borders: Sequence[int], shares: Sequence[FloatArray], corners: Sequence[Operators]
+) -> Operators:
+    """Of independent errors: those of the segments, of the samples at the jumps, and of what happens between these."""
     made = [(segment.smoothed.errors or segment.smoothed.operators)() for segment in segments]
     ends = np.cumsum([0, *(part.strain.shape[1] for part in made)]).tolist()
     columns = [slice(first, last) for first, last in pairwise(ends)]
-    return _joined(made, columns, range(ends[-1], ends[-1] + len(shares)), ends[-1] + len(shares), borders, shares)
+    joined = _joined(made, columns, range(ends[-1], ends[-1] + len(shares)), ends[-1] + len(shares), borders, shares)
+    return Operators(
+        np.hstack([joined.strain, *(corner.strain for corner in corners)]),
+        np.hstack([joined.rate, *(corner.rate for corner in corners)]),
+    )
 
 
 def _joined(

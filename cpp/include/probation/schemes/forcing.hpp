@@ -54,7 +54,7 @@ PROBATION_INLINE Real modulus_work(const StepData<Real>& s) {
   if (s.fresh) return trapezoid;
   // With bends b of the two parabolas (half the second derivative times h^2), the exact integral adds (E' b_e
   // - b_E e') / 6.
-  const double weight = s.ratio / (1.0 + s.ratio);
+  const double weight = bend_weight(s.ratio);
   const Real strain_bend = weight * (rise - s.ratio * (s.true_strain.here - s.true_strain.before));
   const Real modulus_bend =
       weight * (change - s.ratio * (s.unrelaxed_modulus.here - s.unrelaxed_modulus.before));

@@ -13,10 +13,9 @@ namespace probation {
 template <class Real>
 PROBATION_INLINE Real parabolic_reduced_time(const StepData<Real>& s) {
   if (s.constant_fluidity) return s.h * s.fluidity.next;
-  const double h0 = s.h / s.ratio;
-  const Real bend =
-      ((s.fluidity.next - s.fluidity.here) / s.h - (s.fluidity.here - s.fluidity.before) / h0) / (s.h + h0);
-  return s.h * (0.5 * (s.fluidity.here + s.fluidity.next) - (s.h * s.h / 6.0) * bend);
+  const Real bend = bend_weight(s.ratio) *
+                    ((s.fluidity.next - s.fluidity.here) - s.ratio * (s.fluidity.here - s.fluidity.before));
+  return s.h * (0.5 * (s.fluidity.here + s.fluidity.next) - bend / 6.0);
 }
 
 /// The part of U that depends on the strain alone.
@@ -32,9 +31,8 @@ PROBATION_INLINE StepForcing<Real> sa3_step(const StepData<Real>& s, const Stiff
   if (!(scale > 0.0))
     return sa2_step(s, stiff);  // f fell by more than 13 times: the parabola dips below zero
   const Real change = stiff - (s.relaxed_stress.next - s.relaxed_stress.here);
-  const Real curvature =
-      scale * (change - s.previous_forcing * scale / s.previous_scale) / (scale + s.previous_scale);
-  return {StepRule::exponential, scale, change, curvature};
+  const Real growth = scale / s.previous_scale;
+  return {StepRule::exponential, scale, change, bend_weight(growth) * (change - s.previous_forcing * growth)};
 }
 
 }  // namespace probation

@@ -54,6 +54,17 @@ struct Bdf2Difference {
 /// Above this ratio of two successive steps BDF2 is no longer zero-stable (1 + sqrt 2); it starts afresh.
 constexpr double bdf2_largest_step_ratio = 2.41;
 
+/// SA3 bends a step as one that is at most so many times as long as the one before.
+constexpr double sa3_largest_growth = 4.0;
+
+/// Weight g / (1 + g) of the bend of a step that is g times as long as the one before. The parabola carries g
+/// times what the step before errs by; with 4 / (1 + g) in longer ones it carries at most four times as much.
+template <class Real>
+PROBATION_INLINE Real bend_weight(Real growth) {
+  const Real limited = growth < sa3_largest_growth ? growth : Real(sa3_largest_growth);
+  return limited / (1.0 + growth);
+}
+
 /// e^-x, and a choice, for doubles; the kernels overload both for SIMD vectors.
 PROBATION_INLINE double decay(double x) { return std::exp(-x); }
 PROBATION_INLINE double choose(bool first, double a, double b) { return first ? a : b; }
