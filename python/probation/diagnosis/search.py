@@ -203,10 +203,12 @@ class Search:
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
         """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both.
 
-        Also of faults that are far behind by themselves: the other one is why.
+        Also of faults that are far behind by themselves, if they explain anything: the other one is why.
         """
         jobs, residual = [], self.base.model.residual(self.base.refit.parameters)
-        for one, other in combinations(_least_of_each([single for single in singles if _hidden(single)]).values(), 2):
+        most = self.base.refit.chi_square - SEARCH.slack
+        gross = [single for single in singles if _hidden(single) and single.chi_square < most]
+        for one, other in combinations(_least_of_each(gross).values(), 2):
             pair = one.model.causes[-1], other.model.causes[-1]
             if _hidden(one) != _hidden(other) or pair[0].effect is pair[1].effect:
                 continue
