@@ -236,6 +236,16 @@ def test_forms_in_doubt_leave_what_was_probable_beforehand():
             assert chance == pytest.approx(expected)
 
 
+def test_where_evidence_may_tell_nothing_no_cause_is_impossible():
+    """Three causes, one of them 600 log units ahead: a fifth of the prior is left to each of the others."""
+    found = [hypothesis(), alone(NAMES[0], log_evidence=600.0), *(alone(name) for name in NAMES[1:])]
+    weighed = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Trust(told_nothing=0.2))}
+    before = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Trust(power=1e-12))}
+    for name in NAMES[1:]:
+        assert weighed[(name,)] == pytest.approx(0.2 * before[(name,)])
+    assert weighed[(NAMES[0],)] == pytest.approx(0.8 + 0.2 * before[(NAMES[0],)])
+
+
 @pytest.mark.parametrize(("lead", "kept"), [(8.0, True), (3.0, False)])
 def test_an_unknown_effect_does_not_lead_by_its_prior_alone(lead, kept):
     """Where evidence counts to the power of 0.1, eight log units do not outweigh the prior: the limit does."""

@@ -82,7 +82,7 @@ NUMERICAL = {
     "inference/least_squares.py": {"FIRST_DAMPING", "LEAST_DAMPING", "MOST_DAMPING", "ALL_DIGITS"},
     "inference/modal_law.py": {"_BOUNDS"},
     "inference/elastic_frame.py": {"MODES", "SAMPLES", "STEP", "MOVING"},
-    "inference/model.py": {"_PROBE", "_PARABOLA"},
+    "inference/model.py": {"_ONE_SIDED", "_PROBE", "_PARABOLA"},
     "inference/moving_noise.py": {"KEPT"},
     "inference/remembering.py": {"KEPT"},
     "inference/own_force.py": {

@@ -83,6 +83,8 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
     before = np.array([log_prior(effects, count) + _log_odds(entries[0][1]) for effects, entries in together.items()])
     chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
     chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
+    tried = np.where(np.isfinite(gained), before, -np.inf)
+    chances = (1.0 - trust.told_nothing) * chances + trust.told_nothing * softmax(tried)
     chances = _unknown_cut(chances, evidence, trust.most_unknown)
     weighed = [
         Weighed(effects, chance, _standing_for(entries))

@@ -35,6 +35,8 @@ class Trust:
     doubt : float
         Probability that forms are so far from the catalogue's that evidence counts to `power_in_doubt` only.
     power_in_doubt : float
+    told_nothing : float
+        Probability that the evidence says nothing of the cause, and all is as probable as beforehand.
     most_unknown : float
         Most that an unknown effect keeps where a known explanation has plainly more evidence.
     """
@@ -43,6 +45,7 @@ class Trust:
     left_by_forms: float = 0.0
     doubt: float = 0.0
     power_in_doubt: float = 1.0
+    told_nothing: float = 0.0
     most_unknown: float = 1.0
 
 
@@ -90,6 +93,7 @@ class CalibrationCheck:
             CALIBRATED.left_by_forms_outside,
             CALIBRATED.doubt_outside,
             CALIBRATED.power_in_doubt,
+            CALIBRATED.told_nothing_outside,
             CALIBRATED.most_unknown_outside,
         )
 

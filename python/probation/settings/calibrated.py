@@ -58,6 +58,14 @@ class CalibratedRanges:
         "Power of the evidence where its forms are in doubt.",
         source="docs/tried.md: university, seed 51001; industry, seed 51002",
     )
+    told_nothing_outside: float = calibrated(
+        0.25,
+        "probability",
+        "That the evidence of a campaign outside these ranges says nothing of the cause: all is as probable as "
+        "beforehand. A right form that is far from the catalogue's is hundreds of log units behind, and no power of "
+        "the evidence brings it back.",
+        source="docs/tried.md: seeds 104001 to 104003",
+    )
     most_unknown_outside: float = calibrated(
         0.2,
         "probability",
