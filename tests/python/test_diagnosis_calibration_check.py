@@ -42,7 +42,8 @@ def test_forms_are_doubted_where_nothing_was_calibrated():
     inside, outside = CalibrationCheck(inside=True).trust, CalibrationCheck(inside=False, why=("another law",)).trust
     assert inside.doubt == 0.0
     assert outside.doubt > 0.0
-    assert outside.told_nothing > inside.told_nothing == 0.0
+    assert outside.strong_doubt > inside.strong_doubt == 0.0
+    assert outside.power_in_strong_doubt < outside.power_in_doubt
     assert outside.power_in_doubt < outside.power < inside.power
     assert outside.most_unknown < inside.most_unknown == 1.0
     assert outside.left_by_forms > inside.left_by_forms

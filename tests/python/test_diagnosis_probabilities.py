@@ -236,14 +236,17 @@ def test_forms_in_doubt_leave_what_was_probable_beforehand():
             assert chance == pytest.approx(expected)
 
 
-def test_where_evidence_may_tell_nothing_no_cause_is_impossible():
-    """Three causes, one of them 600 log units ahead: a fifth of the prior is left to each of the others."""
-    found = [hypothesis(), alone(NAMES[0], log_evidence=600.0), *(alone(name) for name in NAMES[1:])]
-    weighed = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Trust(told_nothing=0.2))}
-    before = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Trust(power=1e-12))}
+def test_in_strong_doubt_a_known_cause_far_behind_keeps_some_probability_and_an_unknown_gets_none():
+    """One of the causes is 600 log units ahead: the others share a fifth with it, as exp(-600 / 300)."""
+    found = [hypothesis(unknown=590.0), alone(NAMES[0], log_evidence=600.0), *(alone(name) for name in NAMES[1:])]
+    trust = Trust(strong_doubt=0.2, power_in_strong_doubt=1.0 / 300.0)
+    weighed = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), trust)}
+    sure = {each.effects: each.probability for each in probabilities_of(found, len(NAMES))}
+    behind = np.exp(-2.0) / (1.0 + (len(NAMES) - 1) * np.exp(-2.0))
     for name in NAMES[1:]:
-        assert weighed[(name,)] == pytest.approx(0.2 * before[(name,)])
-    assert weighed[(NAMES[0],)] == pytest.approx(0.8 + 0.2 * before[(NAMES[0],)])
+        assert weighed[(name,)] == pytest.approx(0.2 * behind)
+    assert weighed[("unknown",)] == pytest.approx(0.8 * sure[("unknown",)])
+    assert sum(weighed.values()) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(("lead", "kept"), [(8.0, True), (3.0, False)])

@@ -131,7 +131,7 @@ def causes_of(
     considered = tuple(considered)
     if not gap:
         hypotheses = linear_hypotheses(base, base.columns, skipping)
-        trust = replace(calibration.trust, doubt=0.0, told_nothing=0.0)  # of forms, which describe nothing here
+        trust = replace(calibration.trust, doubt=0.0, strong_doubt=0.0)  # of forms, which describe nothing here
         weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), trust), p_value)
         return Causes(base, considered, hypotheses, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)

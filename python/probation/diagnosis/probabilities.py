@@ -16,7 +16,7 @@ from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from probation._arrays import FloatArray
     from probation.diagnosis.hypothesis import Hypothesis
@@ -83,14 +83,21 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
     before = np.array([log_prior(effects, count) + _log_odds(entries[0][1]) for effects, entries in together.items()])
     chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
     chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
-    tried = np.where(np.isfinite(gained), before, -np.inf)
-    chances = (1.0 - trust.told_nothing) * chances + trust.told_nothing * softmax(tried)
+    if trust.strong_doubt:
+        chances = (1.0 - trust.strong_doubt) * chances
+        chances += trust.strong_doubt * softmax(_of_known(together, trust.power_in_strong_doubt * gained + before))
     chances = _unknown_cut(chances, evidence, trust.most_unknown)
     weighed = [
         Weighed(effects, chance, _standing_for(entries))
         for (effects, entries), chance in zip(together.items(), chances.tolist(), strict=True)
     ]
     return sorted(weighed, key=lambda explanation: -explanation.probability)
+
+
+def _of_known(explanations: Iterable[tuple[str, ...]], scores: FloatArray) -> FloatArray:
+    """Scores of the explanations by known effects alone, if there are any; none of the others."""
+    known = np.array([bool(effects) and UNKNOWN not in effects for effects in explanations]) & np.isfinite(scores)
+    return np.where(known, scores, -np.inf) if known.any() else scores
 
 
 def _unknown_cut(chances: FloatArray, evidence: Mapping[tuple[str, ...], float], most: float) -> FloatArray:

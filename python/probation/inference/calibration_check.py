@@ -35,8 +35,10 @@ class Trust:
     doubt : float
         Probability that forms are so far from the catalogue's that evidence counts to `power_in_doubt` only.
     power_in_doubt : float
-    told_nothing : float
-        Probability that the evidence says nothing of the cause, and all is as probable as beforehand.
+    strong_doubt : float
+        Probability that they are so far from it that evidence counts to `power_in_strong_doubt` only, among known
+        effects.
+    power_in_strong_doubt : float
     most_unknown : float
         Most that an unknown effect keeps where a known explanation has plainly more evidence.
     """
@@ -45,7 +47,8 @@ class Trust:
     left_by_forms: float = 0.0
     doubt: float = 0.0
     power_in_doubt: float = 1.0
-    told_nothing: float = 0.0
+    strong_doubt: float = 0.0
+    power_in_strong_doubt: float = 1.0
     most_unknown: float = 1.0
 
 
@@ -93,7 +96,8 @@ class CalibrationCheck:
             CALIBRATED.left_by_forms_outside,
             CALIBRATED.doubt_outside,
             CALIBRATED.power_in_doubt,
-            CALIBRATED.told_nothing_outside,
+            CALIBRATED.strong_doubt_outside,
+            CALIBRATED.power_in_strong_doubt,
             CALIBRATED.most_unknown_outside,
         )
 

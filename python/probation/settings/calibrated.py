@@ -58,12 +58,17 @@ class CalibratedRanges:
         "Power of the evidence where its forms are in doubt.",
         source="docs/tried.md: university, seed 51001; industry, seed 51002",
     )
-    told_nothing_outside: float = calibrated(
-        0.25,
+    strong_doubt_outside: float = calibrated(
+        0.15,
         "probability",
-        "That the evidence of a campaign outside these ranges says nothing of the cause: all is as probable as "
-        "beforehand. A right form that is far from the catalogue's is hundreds of log units behind, and no power of "
-        "the evidence brings it back.",
+        "That a cause has a known name, but its form is so far from the catalogue's that evidence counts to "
+        "`power_in_strong_doubt` only: a right cause may be hundreds of log units behind.",
+        source="docs/tried.md: seeds 104001 to 104003",
+    )
+    power_in_strong_doubt: float = calibrated(
+        0.005,
+        "-",
+        "Power of the evidence there: what is thousands of log units behind stays impossible.",
         source="docs/tried.md: seeds 104001 to 104003",
     )
     most_unknown_outside: float = calibrated(
