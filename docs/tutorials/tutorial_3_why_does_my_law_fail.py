@@ -187,9 +187,9 @@ print(fewer.next_tests[0].what)
 for explanation in fewer.explanations[:3]:
     print(f"{explanation.probability:5.0%}  {' + '.join(explanation.effects)}")
 
-# >   41%  self_heating
-# >   36%  damage
-# >    6%  unknown
+# >   39%  self_heating
+# >   35%  damage
+# >    9%  force_gain
 
 # %%
 # What to do with a name

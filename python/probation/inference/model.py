@@ -434,9 +434,12 @@ def _difference(
     A central one costs twice as much; it is taken where the step is the sampling's, since there the answer has corners.
     """
     step = parameter.step(value)
-    if parameter.resolution and parameter.lower <= value - step and value + step <= parameter.upper:
+    ends = value + step > parameter.upper
+    if not parameter.resolution:
+        step *= _ONE_SIDED
+    elif not ends and value - step >= parameter.lower:
         return (at(value + step) - at(value - step)) / (2.0 * step)
-    step *= -_ONE_SIDED if value + step > parameter.upper else _ONE_SIDED
+    step = -step if ends else step
     return (at(value + step) - here) / step
 
 
