@@ -83,9 +83,8 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
     before = np.array([log_prior(effects, count) + _log_odds(entries[0][1]) for effects, entries in together.items()])
     chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
     chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
-    if trust.strong_doubt:
-        chances = (1.0 - trust.strong_doubt) * chances
-        chances += trust.strong_doubt * softmax(_of_known(together, trust.power_in_strong_doubt * gained + before))
+    far = softmax(_of_known(together, trust.power_in_strong_doubt * gained + before))
+    chances = (1.0 - trust.strong_doubt) * chances + trust.strong_doubt * far
     chances = _unknown_cut(chances, evidence, trust.most_unknown)
     weighed = [
         Weighed(effects, chance, _standing_for(entries))
