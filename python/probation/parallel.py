@@ -44,10 +44,17 @@ PATIENCE = 2.0
 """Seconds without any news of the copies after which this process takes an item of theirs, or three times the longest
 item that it had itself."""
 
+WORTH_A_COPY = 0.08
+"""Seconds of work, by what an item of it took the last time, below which no copy is made: making, serving and ending
+one takes some 40 ms of a process that holds half a gigabyte."""
+
 _NUMBER = 4
 """Bytes of the number of an item."""
 
 _is_copy = False
+
+_taken: dict[object, float] = {}
+"""Seconds that an item of some work took on the average the last time, by the work's code."""
 
 
 def without_blas_threads(function: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
@@ -99,7 +106,7 @@ def in_parallel(
         What `work` raises here: an item that fails in a copy, or is lost with it, is worked out here once more.
     """
     done: dict[int, Result] = {}
-    longest = 0.0
+    longest, spent, tried = 0.0, 0.0, 0
 
     def finish(number: int, result: Result) -> None:
         if number not in done:
@@ -108,15 +115,21 @@ def in_parallel(
                 progress(len(done) / len(items))
 
     def here(number: int) -> None:
-        nonlocal longest
+        nonlocal longest, spent, tried
         begun = time.monotonic()
         finish(number, _fresh(work, items[number]))
-        longest = max(longest, time.monotonic() - begun)
+        took = time.monotonic() - begun
+        longest, spent, tried = max(longest, took), spent + took, tried + 1
 
-    copies = min(processes, len(items)) - 1
+    code = getattr(work, "__code__", None)
+    usual, first = _taken.get(code, WORTH_A_COPY), 0
     try:
+        while usual * (len(items) - first) < WORTH_A_COPY and first < len(items):
+            here(first)
+            usual, first = max(usual, spent / tried), first + 1
+        copies = min(processes, len(items) - first) - 1
         if copies > 0 and sys.platform == "linux" and not _is_copy and parent_process() is None:
-            with _numbers(len(items)) as numbers, _copies(work, items, numbers, copies) as connections:
+            with _numbers(first, len(items)) as numbers, _copies(work, items, numbers, copies) as connections:
                 while connections and (number := _next(numbers)):
                     here(number - 1)
                     while _receive(connections, finish, 0.0):
@@ -130,6 +143,8 @@ def in_parallel(
     finally:
         for forget in BEFORE_EACH:
             forget()
+    if tried and code is not None:
+        _taken[code] = spent / tried
     return [done[number] for number in range(len(items))]
 
 
@@ -140,14 +155,14 @@ def _fresh(work: Callable[[Item], Result], item: Item) -> Result:
 
 
 @contextmanager
-def _numbers(count: int) -> Iterator[int]:
-    """A pipe with the numbers from 1 to `count`, as many as it holds: whoever is free takes the next one."""
+def _numbers(first: int, end: int) -> Iterator[int]:
+    """A pipe with the numbers from first + 1 to `end`, as many as it holds: whoever is free takes the next one."""
     reading, writing = os.pipe()
     try:
         os.set_blocking(reading, False)
         os.set_blocking(writing, False)
         with suppress(BlockingIOError):
-            for number in range(1, count + 1):
+            for number in range(first + 1, end + 1):
                 os.write(writing, number.to_bytes(_NUMBER, "little"))
         os.close(writing)
         yield reading

@@ -53,7 +53,7 @@ def searched(seed):
     made = campaign(seed)
     base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
     search = Search(base, chosen)
-    found = search.run(base.columns_with_starts(chosen))
+    found = search.run()
     return search, found
 
 
@@ -120,9 +120,8 @@ def test_nothing_less_beats_what_leads_in_the_end(made, monkeypatch):
         for part in itertools.combinations(values, size):
             smaller = model.with_causes(cause for cause, _ in part)
             jobs.append((smaller, smaller.parameters(base, *(own for _, own in part))))
-    alone = causes.base.columns_with_starts(causes.considered)
     before = causes.base.refit
-    for each in _first_of_each(alone.candidates(before.residual, span_of(before.jacobian))):
+    for each in _first_of_each(causes.base.candidates(causes.considered)):
         jobs.append((causes.base.model.with_causes([each.cause]), np.concatenate([before.parameters, each.values])))
     judged = []
     for smaller, start in jobs:
@@ -172,7 +171,7 @@ def test_the_same_effect_in_another_record_is_not_the_end_of_the_search():
     chosen = effects(("damage", "force_offset"))
     base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
     search = Search(base, chosen)
-    search.run(base.columns_with_starts(chosen))
+    search.run()
     leader = search.ranked()[0]
     assert leader.effects == ("damage", "force_offset")
     assert {cause.records for cause in leader.causes} == {None, ("b",), ("d",)}
@@ -185,7 +184,7 @@ def test_what_is_as_good_as_the_first_effect_by_itself_is_tried_with_the_second(
     made = campaign(seed)
     base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
     search = Search(base, chosen)
-    search.run(base.columns_with_starts(chosen))
+    search.run()
     standing = {each.effects: each.evidence.log_evidence for each in search.ranked()}
     assert {"damage", "twin"} & {*search.ranked()[0].effects}
     assert standing[("damage", "force_offset")] == pytest.approx(standing[("force_offset", "twin")], abs=2.0)
@@ -227,7 +226,7 @@ def test_variants_of_a_form_are_for_the_search_and_not_for_the_test_for_a_gap():
     variants = {form.name for each in chosen for form in each.forms if form.variant}
     assert variants == {"beyond_a_strain", "logarithmic", "settling"}
     assert variants.isdisjoint(column.cause.form.name for column in base.signals)
-    sought = {column.cause.form.name for column in base.columns_with_starts(chosen).columns}
+    sought = {candidate.cause.form.name for candidate in base.candidates(chosen)}
     assert sought == {form.name for each in chosen for form in each.forms}
 
 

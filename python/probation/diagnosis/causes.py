@@ -171,7 +171,7 @@ def _searched(
 ) -> tuple[BaseFit, list[Hypothesis]]:
     """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
     search = Search(base, considered, threads, progress, skipping, budget)
-    hypotheses = search.run(base.columns_with_starts(considered, threads, skipping.screened))
+    hypotheses = search.run()
     leading = search.ranked()
     if not leading:
         return base, hypotheses

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from itertools import combinations, compress, product
 from typing import TYPE_CHECKING, TypeAlias
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
 from probation.effects.cause import Cause
 from probation.inference.base_fit import specimens_hold_the_gap, with_joint_noise
-from probation.inference.candidate import Candidate, Key, WhitenedColumns, cause_key, screened
+from probation.inference.candidate import Candidate, Key, cause_key, screened
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_freedom
 from probation.inference.refit import MOST_STEPS, Ended, Refit, refit
@@ -70,13 +71,14 @@ class Search:
     _phase: tuple[float, float] = (0.0, 0.5)
     _refits: int = 0
     _taken_apart: set[frozenset[Key]] = field(default_factory=set)
+    _weighed: WeakKeyDictionary[Refit, Evidence | str] = field(default_factory=WeakKeyDictionary)
 
     def __post_init__(self) -> None:
         self.found.append(Hypothesis(self.base.refit, self._evidence(self.base.refit, unknown=True)))
 
-    def run(self, columns: WhitenedColumns) -> list[Hypothesis]:
+    def run(self) -> list[Hypothesis]:
         """Singles, then combinations while something is left."""
-        self._singles(columns)
+        self._singles()
         if self.base.scatter.any:
             self._scatter_around_the_best()
         self._try_with_unknown()
@@ -179,8 +181,8 @@ class Search:
     def _something_left(self, best: Hypothesis) -> bool:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
 
-    def _singles(self, columns: WhitenedColumns) -> None:
-        started = columns.candidates(self.base.refit.residual, span_of(self.base.refit.jacobian))
+    def _singles(self) -> None:
+        started = self.base.candidates(self.effects, self.threads, self.skipping.screened)
         for start in self.base.other_starts if self.base.screens_other_starts else ():
             started += self._candidates_at(start)
         candidates = self._credible(sorted(started, key=lambda candidate: -candidate.gain), self.base.refit)
@@ -189,7 +191,7 @@ class Search:
         begun += self._refitted(self.base.refit, _promising_in_several(candidates), steps=SEARCH.first_steps)
         begun += self._each_by_itself(begun)
         running, behind = self._in_the_running(begun)
-        self.found += self._judged(behind)
+        self.found += self._judged(behind, 0)
         polished = self._further(running, MOST_STEPS)
         single = [fit for fit in running if len(fit.model.causes) == 1]
         keys = {cause_key(fit.model.causes[0]) for fit in single}
@@ -296,7 +298,8 @@ class Search:
             kept = {id(fit) for fit in least}
             behind += [fit for fit in begun if id(fit) not in kept]
             ahead += least
-        self.found += self._judged([*behind, *self._further(ahead, MOST_STEPS)])
+        self.found += self._judged(behind, 0)
+        self.found += self._judged(self._further(ahead, MOST_STEPS))
 
     def _worth_adding(self, leading: Hypothesis, only: Cause | None) -> list[tuple[Candidate, ...]]:
         """What is added to a hypothesis: every form of the best effects by itself, and one in several records."""
@@ -590,8 +593,11 @@ class Search:
         law = self.base.model.split(self.base.refit.parameters)[0]
         return np.append(law, model.start[model.base_count :])
 
-    def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
-        """Refits that leave more than a part of their causes does by itself, begun anew from there."""
+    def _not_above_their_parts(self, refits: list[Refit], steps: int = MOST_STEPS) -> list[Refit]:
+        """Refits that leave more than a part of their causes does by itself, begun anew from there.
+
+        Without steps they are left there: what has lost the race is not worth the time.
+        """
         known = [*(hypothesis.refit for hypothesis in self.found), *refits]
         for count in sorted({len(fit.model.causes) for fit in refits}):
             if self.budget.spent():
@@ -609,7 +615,7 @@ class Search:
                     jobs.append((whole.model, _with_others_absent(whole, part)))
                     before.append(whole)
             # A single effect that leaves more than none has lost the race: none of it leaves as much as none.
-            lower = {id(fit.model): fit for fit in self._solved(jobs, MOST_STEPS if count > 1 else 0)}
+            lower = {id(fit.model): fit for fit in self._solved(jobs, steps if count > 1 else 0)}
             better = {
                 id(fit): lower[id(fit.model)]
                 for fit in before
@@ -619,9 +625,12 @@ class Search:
             known += better.values()
         return refits
 
-    def _judged(self, refits: Iterable[Refit]) -> list[Hypothesis]:
-        """Refits with their evidence; without those of which it cannot be worked out."""
-        final = self._not_above_their_parts(list(refits))
+    def _judged(self, refits: Iterable[Refit], steps: int = MOST_STEPS) -> list[Hypothesis]:
+        """Refits with their evidence; without those of which it cannot be worked out.
+
+        So many steps are taken from a part where that leaves less.
+        """
+        final = self._not_above_their_parts(list(refits), steps)
         judged = []
         for fit, known in zip(final, self._evidences(final), strict=True):
             if isinstance(known, str):
@@ -641,7 +650,9 @@ class Search:
             except UNSOLVABLE as error:
                 return str(error)
 
-        return in_parallel(one, refits, self.threads)
+        new = [fit for fit in refits if fit not in self._weighed]
+        self._weighed.update(zip(new, in_parallel(one, new, self.threads), strict=True))
+        return [self._weighed[fit] for fit in refits]
 
     def _evidence(self, fit: Refit, *, unknown: bool = False) -> Evidence:
         forms = form_freedom(fit, self.base.whitener)

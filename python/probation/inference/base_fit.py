@@ -10,7 +10,7 @@ import numpy as np
 
 from probation.detection.without_lines import without_lines
 from probation.effects.record_view import views_of
-from probation.inference.candidate import WhitenedColumns
+from probation.inference.candidate import WhitenedColumns, for_a_search_only, screened
 from probation.inference.deviations import deviation_columns
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.modal_law import DnlrLaw
@@ -26,6 +26,7 @@ from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.own_deviations import own_deviations, specimen_columns
+from probation.noise.span import span_of
 from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from probation.effects.cause import Cause
     from probation.effects.effect import Effect
     from probation.effects.record_view import RecordView
+    from probation.inference.candidate import Candidate
     from probation.inference.protocol import GapLaw
     from probation.inference.scatter import Scatter
     from probation.inference.screen import Column
@@ -206,26 +208,29 @@ class BaseFit:
         )
         return replace(self, signals=tuple(signals))
 
-    def columns_with_starts(
+    def candidates(
         self,
         effects: Sequence[Effect],
         threads: int = 1,
         unsolved: Callable[[Cause, Exception], None] | None = None,
-    ) -> WhitenedColumns:
-        """The signals, variants, and those whose nonlinear parameters begin where the residual says.
+    ) -> list[Candidate]:
+        """Where a search for these effects may begin, best first: their signals, and all that is `for_a_search_only`.
 
-        `unsolved` is that of `screen`. For a search only: in a gap test they would find what chance put there.
+        `unsolved` is that of `screen`.
         """
-        more = screen(
+        residual, span = self.refit.residual, span_of(self.refit.jacobian)
+        more = screened(
             self.model,
             self.parameters,
             effects,
-            residual=self.model.residual(self.parameters),
+            whitener=self.whitener,
+            residual=residual,
+            span=span,
             threads=threads,
             unsolved=unsolved,
-            only=lambda form: form.variant or form.starts is not None,
+            only=for_a_search_only,
         )
-        return self.columns.and_(WhitenedColumns.of(more, self.whitener, len(self.whitened)))
+        return sorted([*self.columns.candidates(residual, span), *more], key=lambda candidate: -candidate.gain)
 
     @property
     def uncertain_scatter(self) -> UncertainScatter | None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
-    from probation.effects.effect import Effect
+    from probation.effects.effect import Effect, Form
     from probation.inference.model import CampaignModel
     from probation.inference.screen import Column, Onset
     from probation.noise.whitener import Whitener
@@ -66,10 +66,6 @@ class WhitenedColumns:
             matrix[column.rows, index] = column.slope
         return cls(columns, whitener.columns(matrix))
 
-    def and_(self, more: WhitenedColumns) -> WhitenedColumns:
-        """Both screens' columns."""
-        return WhitenedColumns([*self.columns, *more.columns], np.hstack([self.matrix, more.matrix]))
-
     def by_effect(self) -> dict[str, FloatArray]:
         """The columns of every effect that is not sharp: lines and steps have tests of their own."""
         places: dict[str, list[int]] = {}
@@ -109,6 +105,7 @@ def screened(
     span: FloatArray,
     threads: int = 1,
     unsolved: Callable[[Cause, Exception], None] | None = None,
+    only: Callable[[Form], bool] | None = None,
 ) -> list[Candidate]:
     """The candidates of a screen whose columns nobody else needs; starts are read from the model's own residual.
 
@@ -116,7 +113,7 @@ def screened(
 
     Parameters
     ----------
-    model, parameters, effects, threads, unsolved
+    model, parameters, effects, threads, unsolved, only
         As in `screen.onsets`.
     whitener : Whitener
     residual : ndarray, shape (N,)
@@ -140,6 +137,7 @@ def screened(
         residual=model.residual(parameters),
         threads=threads,
         unsolved=unsolved,
+        only=only,
     )
     if not found:
         return []
@@ -148,6 +146,11 @@ def screened(
     followed, common = np.split(noted_of[2:], [span.shape[1]])
     square = square + np.sum(common * (more @ common), axis=0) - np.sum(followed**2, axis=0)
     return _ranked(found, along, square)
+
+
+def for_a_search_only(form: Form) -> bool:
+    """Variants, and forms whose starts are read from the residual: a gap test would find what chance put there."""
+    return form.variant or form.starts is not None
 
 
 def _ranked(columns: Sequence[Column | Onset], along: FloatArray, square: FloatArray) -> list[Candidate]:

@@ -17,7 +17,8 @@ from probation.effects.registry import effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit
-from probation.inference.candidate import WhitenedColumns
+from probation.inference.candidate import WhitenedColumns, for_a_search_only
+from probation.inference.screen import screen
 from probation.inference.thinning import thin
 
 Scored: TypeAlias = "tuple[str, float, tuple[str, ...] | None]"
@@ -58,7 +59,11 @@ def survey(folder: Path) -> Survey:
     catalogue = effects()
     base = base_fit(campaign, plain_fit(campaign)).screened(catalogue)
     gap = with_sharp(GapTester(base.whitened, base.columns.by_effect())(), base.whitened).rejected
-    return Survey(campaign.name, base, base.columns_with_starts(catalogue), gap)
+    residual = base.model.residual(base.parameters)
+    more = screen(base.model, base.parameters, catalogue, residual=residual, only=for_a_search_only)
+    return Survey(
+        campaign.name, base, WhitenedColumns.of([*base.signals, *more], base.whitener, len(base.whitened)), gap
+    )
 
 
 def answer(found: Survey, scored: Iterable[Scored]) -> dict[str, object]:
