@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
+Other = TypeVar("Other")
 Arguments = ParamSpec("Arguments")
 
 BEFORE_EACH: list[Callable[[], None]] = []
@@ -146,6 +147,13 @@ def in_parallel(
     if tried and code is not None:
         _taken[code] = spent / tried
     return [done[number] for number in range(len(items))]
+
+
+def both(first: Callable[[], Result], second: Callable[[], Other], processes: int) -> tuple[Result, Other]:
+    """What two pieces of work give, side by side; the first one is the longer, and mostly worked on here."""
+    works: list[Callable[[], Any]] = [first, second]
+    one, other = in_parallel(lambda work: work(), works, processes)
+    return one, other
 
 
 def _fresh(work: Callable[[Item], Result], item: Item) -> Result:

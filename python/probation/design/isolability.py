@@ -72,18 +72,16 @@ def isolability(
     cosine, probability = (
         np.array(column) for column in zip(*map(rivalry.against, range(len(rivalry.names))), strict=True)
     )
-    smallest = in_parallel(
-        lambda k: design.smallest_seen(signals[k], float(sizes[k])),
-        rivalry.chosen,
-        threads,
-        lambda part: advance(0.5 + 0.5 * part),
-    )
-    described = [
-        _described(design, rivalry, signals[k], row, raw[:, k], probability[row], smallest[row])
-        for row, k in enumerate(rivalry.chosen)
-    ]
+
+    def described(row: int) -> EffectIsolability:
+        k = rivalry.chosen[row]
+        smallest = design.smallest_seen(signals[k], float(sizes[k]))
+        return _described(design, rivalry, signals[k], row, raw[:, k], probability[row], smallest)
+
+    rows = range(len(rivalry.chosen))
+    isolable = in_parallel(described, rows, threads, lambda part: advance(0.5 + 0.5 * part))
     return Isolability(
-        tuple(view.id for view in model.views), tuple(described), cosine, probability, tuple(left_out.items())
+        tuple(view.id for view in model.views), tuple(isolable), cosine, probability, tuple(left_out.items())
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
+    from probation.noise.model import NoiseModel
+    from probation.noise.record_residual import RecordResidual
     from probation.noise.whitening import Whitened
 
 
@@ -130,20 +133,15 @@ def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: in
         Draws.
     seed : int
     """
-    rng = np.random.default_rng(seed)
     strongest = []
-    for index, record in enumerate(whitened.records):
-        count = len(record)
-        if count < DETECTION.fewest_for_steps * DETECTION.slowest_line:
+    for index, filters in enumerate(_step_filters(whitened.records, whitened.noises, size, seed)):
+        if filters is None:
             continue
+        record = whitened.records[index]
         left, white = left_by_slow_waves(whitened, index, None)
-        stride = -(-count // DETECTION.step_candidates)
-        coarse = np.arange(max(stride, 3), count - 2, stride)
-        steps, norm = _steps(whitened, index, white, coarse)
-        scores = steps.T @ left
-        best = int(coarse[int(np.argmax(np.abs(scores)))])
-        near = np.arange(max(best - stride, 3), min(best + stride + 1, count - 2))
-        fine, norm = _steps(whitened, index, white, near)
+        best = int(filters.instants[int(np.argmax(np.abs(filters.steps.T @ left)))])
+        near = np.arange(max(best - filters.stride, 3), min(best + filters.stride + 1, len(record) - 2))
+        fine, norm = _steps(record, whitened.noises[index], white, near)
         at = int(np.argmax(np.abs(fine.T @ left)))
         along = float(fine[:, at] @ left)
         score = along / _local_noise_sd(left, int(near[at])) / _spread_by_wander(whitened, index, white, fine[:, at])
@@ -155,20 +153,63 @@ def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: in
                 ),
             )
         )
-        spread = 0.5 * np.sqrt(whitened.noises[index].level_variance + whitened.noises[index].shape_variance)
-        values, vectors = np.linalg.eigh(steps.T @ steps)
-        root = vectors * np.sqrt(np.maximum(values, 0.0))
-        drawn = np.max(np.abs(rng.standard_normal((size, len(values))) @ root.T), axis=1)
-        drawn *= np.exp(spread * rng.standard_normal(size))
         # The finer instants that only the best place is given: each is nearly one of the coarse ones.
-        single = max(float(normal_tail(abs(score), spread)), float(student_tail(abs(score), freedom)))
-        family = float(family_p_value(single, normal_tail(drawn, spread)))
+        single = max(float(normal_tail(abs(score), filters.spread)), float(student_tail(abs(score), freedom)))
+        family = float(family_p_value(single, filters.drawn))
         p_value = smallest_of_many(family, len(whitened.records))
         place = int(near[at])
         strongest.append(
             Step(record.name, float(record.time[place]), float(record.true_strain[place]), along / norm[at], p_value)
         )
     return tuple(sorted(strongest, key=lambda step: step.p_value))
+
+
+@dataclass(frozen=True, eq=False)
+class _StepFilters:
+    """Filters for a step in one record, and what they find in noise.
+
+    Attributes
+    ----------
+    instants : ndarray, shape (m,)
+        Samples before which a step is tried, `stride` apart.
+    stride : int
+    steps : ndarray, shape (n, m)
+        Whitened, projected and normalised.
+    spread : float
+        Standard deviation of the logarithm of the noise's size.
+    drawn : ndarray, shape (size,)
+        P-values of the largest score in draws of the noise.
+    """
+
+    instants: NDArray[np.intp]
+    stride: int
+    steps: FloatArray
+    spread: float
+    drawn: FloatArray
+
+
+@lru_cache(maxsize=2)
+def _step_filters(
+    records: tuple[RecordResidual, ...], noises: tuple[NoiseModel, ...], size: int, seed: int
+) -> tuple[_StepFilters | None, ...]:
+    """Of every record, None where it is too short; kept, since many explanations are tried on the same records."""
+    rng = np.random.default_rng(seed)
+    found: list[_StepFilters | None] = []
+    for record, noise in zip(records, noises, strict=True):
+        count = len(record)
+        if count < DETECTION.fewest_for_steps * DETECTION.slowest_line:
+            found.append(None)
+            continue
+        stride = -(-count // DETECTION.step_candidates)
+        instants = np.arange(max(stride, 3), count - 2, stride)
+        steps, _ = _steps(record, noise, _slow_waves(record, noise, None), instants)
+        spread = 0.5 * float(np.sqrt(noise.level_variance + noise.shape_variance))
+        values, vectors = np.linalg.eigh(steps.T @ steps)
+        root = vectors * np.sqrt(np.maximum(values, 0.0))
+        drawn = np.max(np.abs(rng.standard_normal((size, len(values))) @ root.T), axis=1)
+        drawn *= np.exp(spread * rng.standard_normal(size))
+        found.append(_StepFilters(instants, stride, steps, spread, normal_tail(drawn, spread)))
+    return tuple(found)
 
 
 def _local_noise_sd(left: FloatArray, place: int) -> float:
@@ -203,15 +244,20 @@ def _freedom(values: FloatArray) -> float:
 
 def left_by_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tuple[FloatArray, FloatArray]:
     """Whitened residual of a record without slow waves and its own refit, and the orthonormal columns taken out."""
-    record, noise = whitened.records[index], whitened.noises[index]
+    white = _slow_waves(whitened.records[index], whitened.noises[index], waves)
+    residual = whitened.residual[whitened.slices[index]]
+    return residual - white @ (white.T @ residual), white
+
+
+@lru_cache(maxsize=64)
+def _slow_waves(record: RecordResidual, noise: NoiseModel, waves: int | None) -> FloatArray:
+    """Orthonormal basis of a record's slow waves and its own refit, whitened, shape (n, k)."""
     smooth = smooth_basis(record.time, () if waves else record.jumps, waves or DETECTION.slowest_line)
     columns = noise.whiten(np.hstack([smooth.columns, record.tangent]))
     size = np.linalg.norm(columns, axis=0)
     left, upper = np.linalg.qr(columns / np.where(size > 0.0, size, 1.0))
     turned, singular, _ = np.linalg.svd(upper)
-    white = left @ turned[:, singular > 1e-8 * singular[0]]
-    residual = whitened.residual[whitened.slices[index]]
-    return residual - white @ (white.T @ residual), white
+    return np.asarray(left @ turned[:, singular > 1e-8 * singular[0]])
 
 
 def speed_wander_in(whitened: Whitened, index: int, white: FloatArray) -> FloatArray:
@@ -229,11 +275,10 @@ def speed_wander_in(whitened: Whitened, index: int, white: FloatArray) -> FloatA
 
 
 def _steps(
-    whitened: Whitened, index: int, white: FloatArray, instants: NDArray[np.intp]
+    record: RecordResidual, noise: NoiseModel, white: FloatArray, instants: NDArray[np.intp]
 ) -> tuple[FloatArray, FloatArray]:
     """Unit steps at the instants, whitened and projected, normalised; and their norms."""
-    count = len(whitened.records[index])
-    columns = whitened.noises[index].whiten((np.arange(count)[:, None] >= instants).astype(np.float64))
+    columns = noise.whiten((np.arange(len(record))[:, None] >= instants).astype(np.float64))
     columns = columns - white @ (white.T @ columns)
     norm = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
     return columns / norm, norm
@@ -261,6 +306,10 @@ def uneven_power(time: FloatArray, values: FloatArray, frequency: FloatArray) ->
 def running_median(values: FloatArray, window: int) -> FloatArray:
     """Median over blocks of `window`, interpolated between their centres."""
     pieces = max(len(values) // window, 1)
-    parts = np.array_split(np.arange(len(values)), pieces)
-    centres = np.array([part.mean() for part in parts])
-    return np.interp(np.arange(len(values)), centres, [float(np.median(values[part])) for part in parts])
+    width, longer = divmod(len(values), pieces)
+    split = longer * (width + 1)  # the first blocks are one longer
+    blocks = values[:split].reshape(longer, width + 1), values[split:].reshape(pieces - longer, width)
+    ends = np.cumsum([0] + [width + 1] * longer + [width] * (pieces - longer))
+    centres = 0.5 * (ends[:-1] + ends[1:] - 1)
+    medians = np.concatenate([np.median(block, axis=1) for block in blocks if block.size])
+    return np.asarray(np.interp(np.arange(len(values)), centres, medians))

@@ -35,7 +35,7 @@ from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
-from probation.parallel import at_once, without_blas_threads
+from probation.parallel import at_once, both, without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
 from probation.settings.detection import DETECTION
@@ -144,9 +144,13 @@ def diagnose(
     done(0.0, "fitting the law")
     fitted = based_on(campaign)
     done(0.05, "testing for a gap")
-    gap = find_gap(fitted, visible(known, fitted.model.views), threads=workers, seed=seed)
+    gap, place = both(
+        lambda: find_gap(fitted, visible(known, fitted.model.views), threads=workers, seed=seed),
+        lambda: locate(fitted.whitened, seed=seed),
+        workers,
+    )
     done(0.12, "locating the gap")
-    case = _case(campaign, fitted, gap, based_on, seed)
+    case = _case(campaign, fitted, gap, place, based_on, seed)
     base, where, p_value = case.base, case.where, case.p_value
     considered = _visible(known, base, skipping, asked=effects is not None)
     calibration = check_calibration(base)
@@ -273,10 +277,12 @@ class _Case:
     judge: str | None = None
 
 
-def _case(campaign: Campaign, fitted: BaseFit, gap: Gap, based_on: Callable[[Campaign], BaseFit], seed: int) -> _Case:
+def _case(
+    campaign: Campaign, fitted: BaseFit, gap: Gap, place: Where, based_on: Callable[[Campaign], BaseFit], seed: int
+) -> _Case:
     """The records that causes are fitted to: those of the base fit, or all but one where only predictions fail."""
     if gap.in_fitted or not gap.in_held_out:
-        return _Case(fitted, locate(fitted.whitened, seed=seed), gap.test.p_value)
+        return _Case(fitted, place, gap.test.p_value)
     joint, judge = all_but_one(campaign, gap)
     where = locate(_with_predictions(fitted), seed=seed)
     base = replace(based_on(joint), reference=fitted.parameters)

@@ -344,16 +344,19 @@ class Search:
     def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
         """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
         left = self.base.whitened.with_residual(before.residual, before.jacobian)
-        lines = {line.record for line in find_lines(left) if line.p_value < SEARCH.line_or_step_level}
-        steps = {step.record: step.p_value for step in find_steps(left)}
-        periodic = self._periodic_in_strain(left)
+        kinds = {candidate.cause.form.sharp for candidate in candidates}
+        found = find_lines(left) if "line" in kinds else ()
+        lines = {line.record for line in found if line.p_value < SEARCH.line_or_step_level}
+        steps = {step.record: step.p_value for step in find_steps(left)} if "step" in kinds else {}
+        periodic = self._periodic_in_strain(left) if "strain_period" in kinds else set()
+        everywhere = {record.name for record in left.records}
         smooth_ones = [candidate for candidate in candidates if candidate.cause.form.sharp is None]
         best_smooth = max(smooth_ones, key=lambda candidate: candidate.gain, default=None)
         smooth = 0.0 if best_smooth is None else best_smooth.gain
 
         def credible(candidate: Candidate) -> bool:
             sharp = candidate.cause.form.sharp
-            places = {*steps} if candidate.cause.records is None else {*candidate.cause.records}
+            places = everywhere if candidate.cause.records is None else {*candidate.cause.records}
             if sharp is None or (
                 sharp == "step" and candidate.gain > max(SEARCH.soft_step_ratio * smooth, SEARCH.strong_gap)
             ):

@@ -235,7 +235,7 @@ def find_gap(
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
     calibration = check_calibration(base)
-    test = _survivor(base.whitened, base.signals, sizes, seed, base.uncertain_scatter, calibration)
+    test = _survivor(base.whitened, base.columns, sizes, seed, base.uncertain_scatter, calibration)
     alike = _if_alike(base, test, seed) if base.scatter.any else None
     held_out = {}
     for index, (record, noise) in enumerate(zip(*predictions(base), strict=True)) if predicted else ():
@@ -245,7 +245,8 @@ def find_gap(
         signals = screen(model, base.parameters, effects, threads=threads, only=lambda form: not form.variant)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
-        held_out_test = _survivor(whitened, signals, sizes, seed, base.uncertain_scatter_of(index, noise), calibration)
+        columns = _columns(signals, whitened)
+        held_out_test = _survivor(whitened, columns, sizes, seed, base.uncertain_scatter_of(index, noise), calibration)
         held_out[record.name] = HeldOutGap(
             _rms(error), _rms(noise.deviation), held_out_test.p_value, held_out_test.level
         )
@@ -254,7 +255,7 @@ def find_gap(
 
 def _survivor(
     whitened: Whitened,
-    signals: Sequence[Column],
+    columns: WhitenedColumns,
     sizes: Mapping[str, GapSize],
     seed: int,
     scatter: UncertainScatter | None,
@@ -266,13 +267,13 @@ def _survivor(
     level 1.25 times as high, and a drift that goes along with an effect as with anything else.
     """
     level, noises = calibration.gap_level(misfit_over_noise(whitened)), whitened.noises
-    test = _tested(whitened, signals, seed, level, scatter)
+    test = _tested(whitened, columns, seed, level, scatter)
     if not test.rejected or any(
         sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
     ):
         return test
     drifting = Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises))
-    other = _tested(drifting, signals, seed, level, scatter)
+    other = _tested(drifting, _columns(columns.columns, drifting), seed, level, scatter)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
 
 
@@ -290,14 +291,17 @@ def _if_alike(base: BaseFit, test: GapTest, seed: int) -> GapTest:
         along_curves = GapTester(base.alike, seed=seed)(level=test.level)
         if along_curves.rejected:
             return along_curves
-    return _tested(base.alike, base.signals, seed, test.level)
+    return _tested(base.alike, _columns(base.signals, base.alike), seed, test.level)
 
 
 def _tested(
-    whitened: Whitened, signals: Sequence[Column], seed: int, level: float, scatter: UncertainScatter | None = None
+    whitened: Whitened, columns: WhitenedColumns, seed: int, level: float, scatter: UncertainScatter | None = None
 ) -> GapTest:
-    columns = WhitenedColumns.of(signals, Whitener(whitened.noises), len(whitened))
     return with_sharp(GapTester(whitened, columns.by_effect(), scatter=scatter, seed=seed)(level=level), whitened)
+
+
+def _columns(signals: Sequence[Column], whitened: Whitened) -> WhitenedColumns:
+    return WhitenedColumns.of(signals, Whitener(whitened.noises), len(whitened))
 
 
 def _drifting(noise: NoiseModel) -> NoiseModel:
