@@ -109,7 +109,7 @@ def compare(
     base = base.screened(changes, workers, skipping.screened)
     advance(Part(0.2, "testing for a change"))
     # Without lines and strain periods: those of both rigs are in both campaigns, each with its own phase.
-    tester = GapTester(base.whitened, base.columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)
+    tester = GapTester(base.whitened, base.smooth_columns.by_effect(), scatter=base.uncertain_scatter, seed=seed)
     calibration = check_calibration(base)
     test = tester(level=calibration.gap_level(misfit_over_noise(base.whitened)))
     causes = causes_of(

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
-    from probation.effects.effect import Effect
+    from probation.effects.effect import Effect, Form
     from probation.effects.record_view import RecordView
     from probation.inference.candidate import Candidate
     from probation.inference.protocol import GapLaw
@@ -184,12 +184,17 @@ class BaseFit:
     @cached_property
     def discrepancy(self) -> Discrepancy:
         """Smooth waves over the identify records, along which a form may be wrong."""
-        return Discrepancy.of(self.whitened, self.columns.smooth, periodic=self.periodic)
+        return Discrepancy.of(self.whitened, self.smooth_columns.matrix, periodic=self.periodic)
 
     @cached_property
     def columns(self) -> WhitenedColumns:
         """The signals in white coordinates."""
         return WhitenedColumns.of(self.signals, self.whitener, len(self.whitened))
+
+    @cached_property
+    def smooth_columns(self) -> WhitenedColumns:
+        """The same of those that are not sharp."""
+        return WhitenedColumns.of_smooth(self.signals, self.whitener, len(self.whitened))
 
     def screened(
         self,
@@ -214,23 +219,27 @@ class BaseFit:
         threads: int = 1,
         unsolved: Callable[[Cause, Exception], None] | None = None,
     ) -> list[Candidate]:
-        """Where a search for these effects may begin, best first: their signals, and all that is `for_a_search_only`.
+        """Where a search for these effects may begin, best first: forms at fixed starts, and `for_a_search_only`.
 
         `unsolved` is that of `screen`.
         """
-        residual, span = self.refit.residual, span_of(self.refit.jacobian)
-        more = screened(
-            self.model,
-            self.parameters,
-            effects,
-            whitener=self.whitener,
-            residual=residual,
-            span=span,
-            threads=threads,
-            unsolved=unsolved,
-            only=for_a_search_only,
-        )
-        return sorted([*self.columns.candidates(residual, span), *more], key=lambda candidate: -candidate.gain)
+
+        def asked(only: Callable[[Form], bool], *, read: bool) -> list[Candidate]:
+            return screened(
+                self.model,
+                self.parameters,
+                effects,
+                whitener=self.whitener,
+                residual=self.refit.residual,
+                span=span_of(self.refit.jacobian),
+                read=read,
+                threads=threads,
+                unsolved=unsolved,
+                only=only,
+            )
+
+        found = [*asked(lambda form: not form.variant, read=False), *asked(for_a_search_only, read=True)]
+        return sorted(found, key=lambda candidate: -candidate.gain)
 
     @property
     def uncertain_scatter(self) -> UncertainScatter | None:

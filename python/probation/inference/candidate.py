@@ -66,19 +66,17 @@ class WhitenedColumns:
             matrix[column.rows, index] = column.slope
         return cls(columns, whitener.columns(matrix))
 
+    @classmethod
+    def of_smooth(cls, columns: Sequence[Column], whitener: Whitener, count: int) -> WhitenedColumns:
+        """The same of those that are not sharp: lines and steps have tests of their own."""
+        return cls.of([column for column in columns if column.cause.form.sharp is None], whitener, count)
+
     def by_effect(self) -> dict[str, FloatArray]:
-        """The columns of every effect that is not sharp: lines and steps have tests of their own."""
+        """The columns of every effect."""
         places: dict[str, list[int]] = {}
         for index, column in enumerate(self.columns):
-            if column.cause.form.sharp is not None:
-                continue
             places.setdefault(column.cause.effect.name, []).append(index)
         return {name: self.matrix[:, own] for name, own in places.items()}
-
-    @property
-    def smooth(self) -> FloatArray:
-        """Those that are not sharp, shape (N, m)."""
-        return self.matrix[:, [column.cause.form.sharp is None for column in self.columns]]
 
     def candidates(self, residual: FloatArray, span: FloatArray) -> list[Candidate]:
         """Every cause at its best starts, best first; the second-best of a cause comes further down.
@@ -103,11 +101,12 @@ def screened(
     whitener: Whitener,
     residual: FloatArray,
     span: FloatArray,
+    read: bool = True,
     threads: int = 1,
     unsolved: Callable[[Cause, Exception], None] | None = None,
     only: Callable[[Form], bool] | None = None,
 ) -> list[Candidate]:
-    """The candidates of a screen whose columns nobody else needs; starts are read from the model's own residual.
+    """The candidates of a screen whose columns nobody else needs.
 
     What a candidate is ranked by adds up over the records, so that each is worked on by itself.
 
@@ -120,6 +119,8 @@ def screened(
         Whitened.
     span : ndarray, shape (N, p)
         Orthonormal basis of what a refit of the model may change.
+    read : bool
+        Whether starts are read from the model's own residual.
     """
     shared, more = whitener.shared
     wanted = whitener.between_records(np.column_stack([without(residual, span), span]))
@@ -134,7 +135,7 @@ def screened(
         parameters,
         effects,
         noted=noted,
-        residual=model.residual(parameters),
+        residual=model.residual(parameters) if read else None,
         threads=threads,
         unsolved=unsolved,
         only=only,

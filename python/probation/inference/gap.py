@@ -235,7 +235,7 @@ def find_gap(
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
     calibration = check_calibration(base)
-    test = _survivor(base.whitened, base.columns, sizes, seed, base.uncertain_scatter, calibration)
+    test = _survivor(base.whitened, base.smooth_columns, sizes, seed, base.uncertain_scatter, calibration)
     alike = _if_alike(base, test, seed) if base.scatter.any else None
     held_out = {}
     for index, (record, noise) in enumerate(zip(*predictions(base), strict=True)) if predicted else ():
@@ -301,7 +301,7 @@ def _tested(
 
 
 def _columns(signals: Sequence[Column], whitened: Whitened) -> WhitenedColumns:
-    return WhitenedColumns.of(signals, Whitener(whitened.noises), len(whitened))
+    return WhitenedColumns.of_smooth(signals, Whitener(whitened.noises), len(whitened))
 
 
 def _drifting(noise: NoiseModel) -> NoiseModel:

@@ -58,7 +58,7 @@ def survey(folder: Path) -> Survey:
     campaign, _ = thin(probation.Campaign.load(folder))
     catalogue = effects()
     base = base_fit(campaign, plain_fit(campaign)).screened(catalogue)
-    gap = with_sharp(GapTester(base.whitened, base.columns.by_effect())(), base.whitened).rejected
+    gap = with_sharp(GapTester(base.whitened, base.smooth_columns.by_effect())(), base.whitened).rejected
     residual = base.model.residual(base.parameters)
     more = screen(base.model, base.parameters, catalogue, residual=residual, only=for_a_search_only)
     return Survey(
