@@ -187,17 +187,17 @@ class Search:
             started += self._candidates_at(start)
         candidates = self._credible(sorted(started, key=lambda candidate: -candidate.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))
-        begun = self._refitted(self.base.refit, _alone(first), self.base.other_starts, SEARCH.first_steps)
-        begun += self._refitted(self.base.refit, _promising_in_several(candidates), steps=SEARCH.first_steps)
+        nothing, elsewhere = self.base.refit, self.base.other_starts
+        jobs = self._jobs(nothing, _alone(first), elsewhere)
+        begun = self._solved([*jobs, *self._jobs(nothing, _promising_in_several(candidates))], SEARCH.first_steps)
         begun += self._each_by_itself(begun)
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind, 0)
-        polished = self._further(running, MOST_STEPS)
         single = [fit for fit in running if len(fit.model.causes) == 1]
         keys = {cause_key(fit.model.causes[0]) for fit in single}
         others = _others(_promising(candidates), first, SEARCH.starts - 1)
         more = [candidate for candidate in others if cause_key(candidate.cause) in keys]
-        polished += self._refitted(self.base.refit, _alone(more), self.base.other_starts)
+        polished = self._further(running, self._jobs(nothing, _alone(more), elsewhere))
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
             self.found += self._judged(self._begun_jointly([fit for fit in begun if len(fit.model.causes) == 1]))
@@ -220,7 +220,7 @@ class Search:
             for starts in product(*(cause.form.nonlinear_starts(views, residuals)[: SEARCH.starts] for cause in pair)):
                 jobs.append((model, model.parameters(self.base.refit.parameters, *starts)))
         begun = sorted(self._solved(jobs, SEARCH.first_steps), key=lambda fit: fit.chi_square)
-        return self._further(begun[: SEARCH.starts], MOST_STEPS)
+        return self._further(begun[: SEARCH.starts])
 
     def _candidates_at(self, start: FloatArray) -> list[Candidate]:
         """Causes as they look from other parameters of the law; gains are over what the base fit leaves."""
@@ -299,7 +299,7 @@ class Search:
             behind += [fit for fit in begun if id(fit) not in kept]
             ahead += least
         self.found += self._judged(behind, 0)
-        self.found += self._judged(self._further(ahead, MOST_STEPS))
+        self.found += self._judged(self._further(ahead))
 
     def _worth_adding(self, leading: Hypothesis, only: Cause | None) -> list[tuple[Candidate, ...]]:
         """What is added to a hypothesis: every form of the best effects by itself, and one in several records."""
@@ -482,23 +482,13 @@ class Search:
                 jobs.append((model, model.parameters(base, *(own for _, own in together))))
         self.found += self._judged(self._solved(jobs, MOST_STEPS))
 
-    def _refitted(
-        self,
-        before: Refit,
-        added: Iterable[Sequence[Candidate]],
-        other_starts: Sequence[FloatArray] = (),
-        steps: int = MOST_STEPS,
-    ) -> list[Refit]:
+    def _jobs(
+        self, before: Refit, added: Iterable[Sequence[Candidate]], other_starts: Sequence[FloatArray] = ()
+    ) -> list[Job]:
         """Refits of candidates jointly with the causes that are there, from where these are and from other starts.
 
         Every item of `added` is what is added at once: a candidate, or those of one effect in several records.
         """
-        return self._solved(self._jobs(before, added, other_starts), steps)
-
-    def _jobs(
-        self, before: Refit, added: Iterable[Sequence[Candidate]], other_starts: Sequence[FloatArray] = ()
-    ) -> list[Job]:
-        """The same refits, not begun yet."""
         jobs: list[Job] = []
         for together in added:
             causes = [*before.model.causes, *(candidate.cause for candidate in together)]
@@ -517,11 +507,11 @@ class Search:
             self.skipping.hypothesis(causes, error)
             return None
 
-    def _further(self, refits: Sequence[Refit], steps: int) -> list[Refit]:
-        """Unfinished refits taken further; left as they are once the budget is spent."""
+    def _further(self, refits: Sequence[Refit], more: Sequence[Job] = ()) -> list[Refit]:
+        """Unfinished refits taken to their ends, and `more` of them; left as they are once the budget is spent."""
         if self.budget.spent():
             return list(refits)
-        return self._solved([(fit.model, fit) for fit in refits], steps)
+        return self._solved([*((fit.model, fit) for fit in refits), *more], MOST_STEPS)
 
     def _solved(self, jobs: Sequence[Job], steps: int) -> list[Refit]:
         """Refits from models and starts; without those that the law cannot follow from there."""

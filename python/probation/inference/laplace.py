@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -94,15 +95,17 @@ class Linearised:
 
     def log_integral(self, variances: FloatArray) -> float:
         """Log of the integral over the parameters of likelihood times prior, C = I + B (D + drift) B^T."""
-        inside, own = self.waves_of_jacobian, self.waves_of_residual
-        lower = cholesky(np.eye(len(own)) + self.drift + np.diag(variances), lower=True, check_finite=False)
-        both = np.column_stack([inside, own])
+        both, square_of_both = self._waves
+        covariance = self.drift.copy()
+        covariance[np.diag_indices_from(covariance)] += 1.0 + variances
+        lower = cholesky(covariance, lower=True, overwrite_a=True, check_finite=False)
         left = solve_triangular(lower, both, lower=True, check_finite=False)
-        taken = both.T @ both - left.T @ left
+        taken = square_of_both - left.T @ left
         normal = self.normal - taken[:-1, :-1]
         gradient = self.gradient - taken[:-1, -1]
         square = self.square - float(taken[-1, -1])
-        total = normal + np.diag(self.precision)
+        total = normal
+        total[np.diag_indices_from(total)] += self.precision
         pull = gradient + self.precision * self.away
         size = np.sqrt(np.maximum(np.diag(total), 1e-300))
         values, vectors = np.linalg.eigh(total / np.outer(size, size))
@@ -123,6 +126,12 @@ class Linearised:
             + self.bound_factor
             + cut
         )
+
+    @cached_property
+    def _waves(self) -> tuple[FloatArray, FloatArray]:
+        """The waves of all columns, the residual's last (d, k + 1), and their products (k + 1, k + 1)."""
+        both = np.column_stack([self.waves_of_jacobian, self.waves_of_residual])
+        return both, both.T @ both
 
     def covariance(self, variances: FloatArray) -> FloatArray:
         """Of all search coordinates; zero for those at a bound."""
