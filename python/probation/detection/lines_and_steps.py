@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from probation.noise.whitening import Whitened
 
 
+KEPT = 32
+"""Bases of slow waves that are kept: of some records, each with and without the slow ones of a fade."""
+
+
 @dataclass(frozen=True)
 class Line:
     """The strongest line of a record's periodogram.
@@ -249,7 +253,7 @@ def left_by_slow_waves(whitened: Whitened, index: int, waves: int | None) -> tup
     return residual - white @ (white.T @ residual), white
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=KEPT)
 def _slow_waves(record: RecordResidual, noise: NoiseModel, waves: int | None) -> FloatArray:
     """Orthonormal basis of a record's slow waves and its own refit, whitened, shape (n, k)."""
     smooth = smooth_basis(record.time, () if waves else record.jumps, waves or DETECTION.slowest_line)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.lines_and_steps import Line, find_lines, fitted_sine, left_by_slow_waves, uneven_power
+from probation.noise.estimate import estimate_noise
 from probation.noise.whitening import Whitened
 from probation.settings.detection import DETECTION
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
+    from probation.noise.evidence import NoiseEvidence
     from probation.noise.record_residual import RecordResidual
 
 PLACES = 33
@@ -35,7 +37,8 @@ def without_lines(records: Sequence[RecordResidual]) -> Whitened:
     ----------
     records : sequence of RecordResidual
     """
-    whitened = Whitened.of(records)
+    known: dict[RecordResidual, NoiseEvidence] = {}
+    whitened = Whitened.of(records, estimate_noise(records, known=known))
     for _ in range(DETECTION.most_lines):
         lines = {line.record: line for line in find_lines(whitened) if line.p_value < DETECTION.line_is_no_noise}
         touched = [index for index, record in enumerate(whitened.records) if record.name in lines]
@@ -44,7 +47,7 @@ def without_lines(records: Sequence[RecordResidual]) -> Whitened:
         cleaned = list(whitened.records)
         for index in touched:
             cleaned[index] = _without(whitened, index, lines[cleaned[index].name])
-        after = Whitened.of(cleaned)
+        after = Whitened.of(cleaned, estimate_noise(cleaned, known=known))
         noises = [(whitened.noises[index], after.noises[index]) for index in touched]
         if any(new.deviation.mean() > old.deviation.mean() for old, new in noises):
             break

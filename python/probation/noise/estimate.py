@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from probation.noise.record_residual import RecordResidual
 
 
-def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tuple[NoiseModel, ...]:
+def estimate_noise(
+    records: Sequence[RecordResidual], pool: bool = True, known: dict[RecordResidual, NoiseEvidence] | None = None
+) -> tuple[NoiseModel, ...]:
     """The noise of every record, by what is rougher than any law's error.
 
     (1) Outliers are set aside; the growth of the noise along the record is found: constant, with e^eps (a constant
@@ -39,13 +41,17 @@ def estimate_noise(records: Sequence[RecordResidual], pool: bool = True) -> tupl
     records : sequence of RecordResidual
     pool : bool
         One shape (phi, theta) for all records where their spectra allow it: the same rig.
+    known : dict of RecordResidual to NoiseEvidence, optional
+        What records say that were asked before; that of the others is added.
 
     Returns
     -------
     tuple of NoiseModel
         In the order of the records.
     """
-    prepared = [noise_evidence(record) for record in records]
+    known = {} if known is None else known
+    known |= {record: noise_evidence(record) for record in records if record not in known}
+    prepared = [known[record] for record in records]
     seen = [evidence for evidence in prepared if evidence.rough is not None]
     fits = iter(fit_spectra(seen, pool) if seen else ())
     return tuple(
