@@ -17,7 +17,7 @@ from probation.effects.cause import Cause
 from probation.effects.registry import effect, effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
-from probation.inference.candidate import WhitenedColumns, cause_key, screened
+from probation.inference.candidate import Extended, WhitenedColumns, cause_key, screened
 from probation.inference.refit import MOST_STEPS, refit
 from probation.inference.remembering import RememberingModel
 from probation.inference.screen import screen
@@ -243,8 +243,9 @@ def test_candidates_record_by_record_are_those_of_the_columns(shared):
     residual = base.model.residual(base.parameters)
     columns = screen(base.model, base.parameters, effects(), residual=residual)
     expected = WhitenedColumns.of(columns, base.whitener, len(residual)).candidates(base.refit.residual, span)
-    found = screened(
-        base.model, base.parameters, effects(), whitener=base.whitener, residual=base.refit.residual, span=span
+    refit = base.refit
+    [found] = screened(
+        [Extended(base.model, base.parameters, effects(), base.whitener, refit.residual, refit.jacobian)]
     )
     assert len(found) == len(expected) > 300
     found.sort(key=_place)

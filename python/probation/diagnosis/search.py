@@ -16,7 +16,7 @@ from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.skipped import Skipping
 from probation.effects.cause import Cause
 from probation.inference.base_fit import specimens_hold_the_gap, with_joint_noise
-from probation.inference.candidate import Candidate, Key, cause_key, screened
+from probation.inference.candidate import Candidate, Extended, Key, cause_key, screened
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_freedom
 from probation.inference.refit import MOST_STEPS, Ended, Refit, refit
@@ -231,17 +231,9 @@ class Search:
             residual, slopes = self.base.problem.residual_and_jacobian(start)
         except UNSOLVABLE:
             return []
-        span = span_of(slopes)
-        candidates = screened(
-            model,
-            start,
-            self.effects,
-            whitener=self.base.whitener,
-            residual=residual,
-            span=span,
-            threads=self.threads,
-        )
-        more, least = without(residual, span), without(base.residual, span_of(base.jacobian))
+        extended = Extended(model, start, self.effects, self.base.whitener, residual, slopes)
+        [candidates] = screened([extended], self.threads)
+        more, least = without(residual, extended.span), without(base.residual, span_of(base.jacobian))
         worse = float(more @ more - least @ least)
         return [replace(candidate, base=start, gain=candidate.gain - worse) for candidate in candidates]
 
@@ -292,7 +284,11 @@ class Search:
             for leading, _ in wanted:
                 self.skipping.part(f"a further effect jointly with {' and '.join(leading.effects)}", self.budget.why)
             return
-        jobs = [self._jobs(leading.refit, self._worth_adding(leading, only)) for leading, only in wanted]
+        candidates = screened([self._extended(leading, only) for leading, only in wanted], self.threads)
+        jobs = [
+            self._jobs(leading.refit, self._worth_adding(leading, only, own))
+            for (leading, only), own in zip(wanted, candidates, strict=True)
+        ]
         behind: list[Refit] = []
         ahead: list[Refit] = []
         for (leading, _), begun in zip(wanted, self._solved_in_groups(jobs, SEARCH.first_steps), strict=True):
@@ -303,26 +299,28 @@ class Search:
         self.found += self._judged(behind, 0)
         self.found += self._judged(self._further(ahead))
 
-    def _worth_adding(self, leading: Hypothesis, only: Cause | None) -> list[tuple[Candidate, ...]]:
-        """What is added to a hypothesis: every form of the best effects by itself, and one in several records."""
-        model, at = leading.refit.model, leading.refit.parameters
+    def _extended(self, leading: Hypothesis, only: Cause | None) -> Extended:
+        """A hypothesis to which an effect is to be added: any, or that of a cause."""
+        refit = leading.refit
 
         def unsolved(cause: Cause, error: Exception) -> None:
             self.skipping.hypothesis([*leading.causes, cause], error)
 
-        effects = (
-            self.effects if only is None else [effect for effect in self.effects if effect.name == only.effect.name]
-        )
-        candidates = screened(
-            model,
-            at,
+        effects = [effect for effect in self.effects if only is None or effect.name == only.effect.name]
+        return Extended(
+            refit.model,
+            refit.parameters,
             effects,
-            whitener=self.base.whitener,
-            residual=leading.refit.residual,
-            span=span_of(leading.refit.jacobian),
-            threads=self.threads,
+            self.base.whitener,
+            refit.residual,
+            refit.jacobian,
             unsolved=unsolved,
         )
+
+    def _worth_adding(
+        self, leading: Hypothesis, only: Cause | None, candidates: Sequence[Candidate]
+    ) -> list[tuple[Candidate, ...]]:
+        """What is added to a hypothesis: every form of the best effects by itself, and one in several records."""
         taken = {(cause.effect.name, cause.records) for cause in leading.causes}
         once = {cause.effect.name for cause in leading.causes if not cause.form.several}
 

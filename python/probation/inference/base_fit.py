@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
@@ -10,7 +11,7 @@ import numpy as np
 
 from probation.detection.without_lines import without_lines
 from probation.effects.record_view import views_of
-from probation.inference.candidate import WhitenedColumns, for_a_search_only, screened
+from probation.inference.candidate import Extended, WhitenedColumns, for_a_search_only, screened
 from probation.inference.deviations import deviation_columns
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.modal_law import DnlrLaw
@@ -26,7 +27,6 @@ from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.own_deviations import own_deviations, specimen_columns
-from probation.noise.span import span_of
 from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
-    from probation.effects.effect import Effect, Form
+    from probation.effects.effect import Effect
     from probation.effects.record_view import RecordView
     from probation.inference.candidate import Candidate
     from probation.inference.protocol import GapLaw
@@ -223,22 +223,18 @@ class BaseFit:
 
         `unsolved` is that of `screen`.
         """
-
-        def asked(only: Callable[[Form], bool], *, read: bool) -> list[Candidate]:
-            return screened(
-                self.model,
-                self.parameters,
-                effects,
-                whitener=self.whitener,
-                residual=self.refit.residual,
-                span=span_of(self.refit.jacobian),
-                read=read,
-                threads=threads,
-                unsolved=unsolved,
-                only=only,
-            )
-
-        found = [*asked(lambda form: not form.variant, read=False), *asked(for_a_search_only, read=True)]
+        extended = Extended(
+            self.model,
+            self.parameters,
+            effects,
+            self.whitener,
+            self.refit.residual,
+            self.refit.jacobian,
+            unsolved=unsolved,
+            only=for_a_search_only,
+        )
+        fixed = replace(extended, read=False, only=lambda form: not form.variant)
+        found = itertools.chain(*screened([fixed, extended], threads))
         return sorted(found, key=lambda candidate: -candidate.gain)
 
     @property

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from probation.inference.screen import onsets
-from probation.noise.span import without
+from probation.inference.screen import Asked, onsets
+from probation.noise.span import span_of, without
 from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
@@ -93,60 +94,73 @@ class WhitenedColumns:
         return _ranked(self.columns, along, square)
 
 
-def screened(
-    model: CampaignModel,
-    parameters: FloatArray,
-    effects: Iterable[Effect],
-    *,
-    whitener: Whitener,
-    residual: FloatArray,
-    span: FloatArray,
-    read: bool = True,
-    threads: int = 1,
-    unsolved: Callable[[Cause, Exception], None] | None = None,
-    only: Callable[[Form], bool] | None = None,
-) -> list[Candidate]:
-    """The candidates of a screen whose columns nobody else needs.
+@dataclass(frozen=True, eq=False)
+class Extended:
+    """A model to which causes are to be added, at its parameters.
 
-    What a candidate is ranked by adds up over the records, so that each is worked on by itself.
-
-    Parameters
+    Attributes
     ----------
-    model, parameters, effects, threads, unsolved, only
-        As in `screen.onsets`.
+    model, parameters, effects, unsolved, only
+        As in `screen.Asked`.
     whitener : Whitener
     residual : ndarray, shape (N,)
         Whitened.
-    span : ndarray, shape (N, p)
-        Orthonormal basis of what a refit of the model may change.
+    jacobian : ndarray, shape (N, p)
+        Whitened: what a refit of the model may change.
     read : bool
         Whether starts are read from the model's own residual.
     """
-    shared, more = whitener.shared
-    wanted = whitener.between_records(np.column_stack([without(residual, span), span]))
-    directions = np.hstack([wanted, shared])
 
-    def noted(index: int, slopes: FloatArray) -> FloatArray:
-        white = whitener.of_record(index, slopes)
-        return np.vstack([np.einsum("ij,ij->j", white, white), directions[whitener.slices[index]].T @ white])
+    model: CampaignModel
+    parameters: FloatArray
+    effects: Sequence[Effect]
+    whitener: Whitener
+    residual: FloatArray
+    jacobian: FloatArray
+    read: bool = True
+    unsolved: Callable[[Cause, Exception], None] | None = None
+    only: Callable[[Form], bool] | None = None
 
-    found = onsets(
-        model,
-        parameters,
-        effects,
-        noted=noted,
-        residual=model.residual(parameters) if read else None,
-        threads=threads,
-        unsolved=unsolved,
-        only=only,
-    )
-    if not found:
-        return []
-    noted_of = np.stack([np.sum(onset.parts, axis=0) for onset in found], axis=1)
-    square, along = noted_of[:2]
-    followed, common = np.split(noted_of[2:], [span.shape[1]])
-    square = square + np.sum(common * (more @ common), axis=0) - np.sum(followed**2, axis=0)
-    return _ranked(found, along, square)
+    @cached_property
+    def span(self) -> FloatArray:
+        """Orthonormal basis of what a refit of the model may change, shape (N, k)."""
+        return span_of(self.jacobian)
+
+    def asked(self) -> Asked:
+        """The screen, of which is noted what adds up over the records: squares, and products with what is wanted."""
+        whitener = self.whitener
+        wanted = np.column_stack([without(self.residual, self.span), self.span])
+        directions = np.hstack([whitener.between_records(wanted), whitener.shared[0]])
+
+        def noted(index: int, slopes: FloatArray) -> FloatArray:
+            white = whitener.of_record(index, slopes)
+            return np.vstack([np.einsum("ij,ij->j", white, white), directions[whitener.slices[index]].T @ white])
+
+        return Asked(
+            self.model,
+            self.parameters,
+            self.effects,
+            noted,
+            residual=self.model.residual(self.parameters) if self.read else None,
+            unsolved=self.unsolved,
+            only=self.only,
+        )
+
+    def candidates(self, found: Sequence[Onset]) -> list[Candidate]:
+        """Every cause at its best starts, best first."""
+        if not found:
+            return []
+        noted_of = np.stack([np.sum(onset.parts, axis=0) for onset in found], axis=1)
+        square, along = noted_of[:2]
+        followed, common = np.split(noted_of[2:], [self.span.shape[1]])
+        square = square + np.sum(common * (self.whitener.shared[1] @ common), axis=0) - np.sum(followed**2, axis=0)
+        return _ranked(found, along, square)
+
+
+def screened(extended: Sequence[Extended], threads: int = 1) -> list[list[Candidate]]:
+    """The candidates of screens whose columns nobody else needs, for each model; all records side by side."""
+    found = onsets([each.asked() for each in extended], threads)
+    return [each.candidates(own) for each, own in zip(extended, found, strict=True)]
 
 
 def for_a_search_only(form: Form) -> bool:

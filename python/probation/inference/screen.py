@@ -12,7 +12,7 @@ from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect, Form, Placement
@@ -64,35 +64,58 @@ class Column:
     slope: FloatArray
 
 
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """What a screen asks, on top of a model as it is.
+
+    Attributes
+    ----------
+    model : CampaignModel
+    parameters : ndarray, shape (n_parameters,)
+        Of the model.
+    effects : sequence of Effect
+    noted : callable
+        ``noted(index, slopes)``: a record's number and d stress / d amplitude along it [MPa per its unit], a column of
+        (n, m) for each cause and start; returns (k, m). It is called where the record is worked on.
+    residual : ndarray, shape (n_samples,) [MPa], optional
+        Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
+    placements : tuple of {"all", "one"}
+        With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
+    unsolved : callable, optional
+        Called with each cause that is left out because the law cannot be solved with it, and the error.
+    only : callable, optional
+        Which forms; all if left out.
+    """
+
+    model: CampaignModel
+    parameters: FloatArray
+    effects: Sequence[Effect]
+    noted: Callable[[int, FloatArray], FloatArray]
+    residual: FloatArray | None = None
+    placements: tuple[Placement, ...] = ("all", "one")
+    unsolved: Callable[[Cause, Exception], None] | None = None
+    only: Callable[[Form], bool] | None = None
+
+
 def screen(
     model: CampaignModel,
     parameters: FloatArray,
-    effects: Iterable[Effect],
+    effects: Sequence[Effect],
     *,
     residual: FloatArray | None = None,
-    placements: tuple[Placement, ...] = ("all", "one"),
     threads: int = 1,
     unsolved: Callable[[Cause, Exception], None] | None = None,
     only: Callable[[Form], bool] | None = None,
 ) -> list[Column]:
-    """Columns of every effect, form, placement and start, on top of the model as it is; as `onsets` says.
+    """Columns of every effect, form, placement and start, on top of the model as it is; as `Asked` says.
 
     Returns
     -------
     list of Column
         In the order of the effects.
     """
-    found = onsets(
-        model,
-        parameters,
-        effects,
-        noted=lambda _, slopes: slopes,
-        residual=residual,
-        placements=placements,
-        threads=threads,
-        unsolved=unsolved,
-        only=only,
-    )
+    asked = Asked(model, parameters, effects, lambda _, slopes: slopes, residual=residual, unsolved=unsolved, only=only)
+    [found] = onsets([asked], threads)
     everywhere = slice(0, len(model.data))
     return [
         Column(
@@ -105,75 +128,65 @@ def screen(
     ]
 
 
-def onsets(
-    model: CampaignModel,
-    parameters: FloatArray,
-    effects: Iterable[Effect],
-    *,
-    noted: Callable[[int, FloatArray], FloatArray],
-    residual: FloatArray | None = None,
-    placements: tuple[Placement, ...] = ("all", "one"),
-    threads: int = 1,
-    unsolved: Callable[[Cause, Exception], None] | None = None,
-    only: Callable[[Form], bool] | None = None,
-) -> list[Onset]:
-    """What is `noted` of every effect, form, placement and start, on top of the model as it is.
+def onsets(asked: Sequence[Asked], threads: int = 1) -> list[list[Onset]]:
+    """What is noted of every effect, form, placement and start, in the order of the effects, for each that is asked.
 
     Effects that the law cannot follow, alone or together with those of the model, are left out; see
     `CampaignModel.missing_capabilities` and `clashes`. So are forms that the records could not show, and those with
-    which it cannot be solved.
-
-    Parameters
-    ----------
-    model : CampaignModel
-    parameters : ndarray, shape (n_parameters,)
-        Of the model.
-    effects : iterable of Effect
-    noted : callable
-        ``noted(index, slopes)``: a record's number and d stress / d amplitude along it [MPa per its unit], a column of
-        (n, m) for each cause and start; returns (k, m). It is called where the record is worked on.
-    residual : ndarray, shape (n_samples,) [MPa], optional
-        Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
-    placements : tuple of {"all", "one"}
-        With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
-    threads : int
-        Records are worked on in parallel.
-    unsolved : callable, optional
-        Called with each cause that is left out because the law cannot be solved with it, and the error.
-    only : callable, optional
-        Which forms; all if left out.
-
-    Returns
-    -------
-    list of Onset
-        In the order of the effects.
+    which it cannot be solved. Records are worked on in parallel.
     """
-    wanted: list[tuple[Cause, tuple[float, ...], tuple[RecordView, ...]]] = []
-    failed: list[tuple[Cause, Exception]] = []
-    for effect in effects:
-        for form in effect.forms:
-            if only is not None and not only(form):
-                continue
-            cause = Cause(effect, form)
-            try:
-                if not form.visible_in(model.views) or model.missing_capabilities(cause) or model.clashes(cause):
-                    continue
-                wanted += [
-                    (Cause(effect, form, records), values, views)
-                    for records, views in _placed(model, effect, form, placements)
-                    for values in _starts(model, form, views, residual)
-                ]
-            except UNSOLVABLE as error:
-                failed.append((cause, error))
-    base, active = model.split(parameters)
+    screens = [_Screen.of(each) for each in asked]
+    parts = [(each, index) for each in screens for index in range(len(each.asked.model.views))]
+    answers = iter(in_parallel(lambda part: part[0].answers(part[1]), parts, threads))
+    return [each.found([next(answers) for _ in each.asked.model.views]) for each in screens]
 
-    def answers(numbered: tuple[int, RecordView]) -> dict[_Key, FloatArray | Exception]:
+
+@dataclass(frozen=True, eq=False)
+class _Screen:
+    """What is wanted of every record, and the causes that it cannot be had of.
+
+    Attributes
+    ----------
+    asked : Asked
+    wanted : list of (Cause, tuple of float, tuple of RecordView)
+        Causes, where they begin, and the records that they act in.
+    failed : list of (Cause, Exception)
+    """
+
+    asked: Asked
+    wanted: list[tuple[Cause, tuple[float, ...], tuple[RecordView, ...]]]
+    failed: list[tuple[Cause, Exception]]
+
+    @classmethod
+    def of(cls, asked: Asked) -> _Screen:
+        model = asked.model
+        wanted: list[tuple[Cause, tuple[float, ...], tuple[RecordView, ...]]] = []
+        failed: list[tuple[Cause, Exception]] = []
+        for effect in asked.effects:
+            for form in effect.forms:
+                if asked.only is not None and not asked.only(form):
+                    continue
+                cause = Cause(effect, form)
+                try:
+                    if not form.visible_in(model.views) or model.missing_capabilities(cause) or model.clashes(cause):
+                        continue
+                    wanted += [
+                        (Cause(effect, form, records), values, views)
+                        for records, views in _placed(model, effect, form, asked.placements)
+                        for values in _starts(model, form, views, asked.residual)
+                    ]
+                except UNSOLVABLE as error:
+                    failed.append((cause, error))
+        return cls(asked, wanted, failed)
+
+    def answers(self, index: int) -> dict[_Key, FloatArray | Exception]:
         """What is noted of one record; a form at one start is worked out once, wherever it is placed."""
-        index, view = numbered
+        model = self.asked.model
+        view, (base, active) = model.views[index], model.split(self.asked.parameters)
         specimen, still = model.at_rest(view, base, active)
         slopes: dict[_Key, FloatArray] = {}
         errors: dict[_Key, FloatArray | Exception] = {}
-        for cause, values, views in wanted:
+        for cause, values, views in self.wanted:
             key = _key(cause, values)
             if view not in views or key in slopes or key in errors:
                 continue
@@ -186,24 +199,27 @@ def onsets(
                 errors[key] = error
         if not slopes:
             return errors
-        return errors | dict(zip(slopes, noted(index, np.column_stack(list(slopes.values()))).T, strict=True))
+        noted = self.asked.noted(index, np.column_stack(list(slopes.values())))
+        return errors | dict(zip(slopes, noted.T, strict=True))
 
-    answers_of = dict(zip(model.views, in_parallel(answers, list(enumerate(model.views)), threads), strict=True))
-    found = []
-    for cause, values, views in wanted:
-        parts: list[FloatArray] = []
-        for view in views:
-            part = answers_of[view][_key(cause, values)]
-            if isinstance(part, Exception):
-                failed.append((cause, part))
-                break
-            parts.append(part)
-        else:
-            found.append(Onset(cause, values, tuple(view.id for view in views), parts))
-    if unsolved is not None:
-        for cause, why in failed:
-            unsolved(cause, why)
-    return found
+    def found(self, answers: Sequence[dict[_Key, FloatArray | Exception]]) -> list[Onset]:
+        """The answers of all records, put together."""
+        answers_of = dict(zip(self.asked.model.views, answers, strict=True))
+        failed, found = list(self.failed), []
+        for cause, values, views in self.wanted:
+            parts: list[FloatArray] = []
+            for view in views:
+                part = answers_of[view][_key(cause, values)]
+                if isinstance(part, Exception):
+                    failed.append((cause, part))
+                    break
+                parts.append(part)
+            else:
+                found.append(Onset(cause, values, tuple(view.id for view in views), parts))
+        if self.asked.unsolved is not None:
+            for cause, why in failed:
+                self.asked.unsolved(cause, why)
+        return found
 
 
 def _key(cause: Cause, values: tuple[float, ...]) -> _Key:
