@@ -93,8 +93,6 @@ class Search:
                 self.skipping.part(f"combinations of more than {size} effects", self.budget.why)
                 break
             left = self._something_left(self.ranked()[0])
-            if size > 1 and not left:
-                break  # a second effect may gain what shows in no misfit; a third one is sought where something shows
             self._extend(self._worth_extending(size, left), extended)
             if size == 1 and left:
                 self._swaps(extended)
