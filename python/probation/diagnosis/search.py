@@ -193,14 +193,13 @@ class Search:
         begun += self._each_by_itself(begun)
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind, 0)
-        single = [fit for fit in running if len(fit.model.causes) == 1]
-        keys = {cause_key(fit.model.causes[0]) for fit in single}
+        keys = {cause_key(fit.model.causes[0]) for fit in _of_one_cause(running)}
         others = _others(_promising(candidates), first, SEARCH.starts - 1)
         more = [candidate for candidate in others if cause_key(candidate.cause) in keys]
         polished = self._further(running, self._jobs(nothing, _alone(more), elsewhere))
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
-            self.found += self._judged(self._begun_jointly([fit for fit in begun if len(fit.model.causes) == 1]))
+            self.found += self._judged(self._begun_jointly(_of_one_cause(begun)))
 
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
         """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both.
@@ -437,13 +436,13 @@ class Search:
         if pairs := self.ranked(2):
             self._extend([each for each in self.ranked(1) if each.effects[0] in pairs[0].effects], extended)
 
-    def _each_by_itself(self, singles: Sequence[Refit]) -> list[Refit]:
+    def _each_by_itself(self, refits: Sequence[Refit]) -> list[Refit]:
         """Faults of the force that leave something if they are alike in all records, with sizes of their own in each.
 
         A limit is a force, and specimens have sections of their own. Of each effect the form that leaves least.
         """
         views, jobs = self.base.model.views, []
-        for single in _least_of_each_effect([fit for fit in singles if len(fit.model.causes) == 1], 0):
+        for single in _least_of_each_effect(_of_one_cause(refits), 0):
             cause = single.model.causes[0]
             of_the_force = cause.form.recorded_stress is not None and "one" in cause.effect.placements(cause.form)
             alike = cause.records is None and len(views) > 1
@@ -697,6 +696,11 @@ def _parts(causes: Sequence[Cause]) -> list[tuple[bool, ...]]:
     parts = [tuple(kept[cause.effect.name] for cause in causes) for kept in effects]
     parts += [tuple(other is not cause for other in causes) for cause in causes]
     return [kept for kept in dict.fromkeys(parts) if any(kept) and not all(kept)]
+
+
+def _of_one_cause(refits: Iterable[Refit]) -> list[Refit]:
+    """Not those of an effect that acts in several records."""
+    return [fit for fit in refits if len(fit.model.causes) == 1]
 
 
 def _keys(fit: Refit) -> frozenset[Key]:
