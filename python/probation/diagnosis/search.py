@@ -192,7 +192,7 @@ class Search:
         begun = self._solved([*jobs, *self._jobs(nothing, _promising_in_several(candidates))], SEARCH.first_steps)
         begun += self._each_by_itself(begun)
         running, behind = self._in_the_running(begun)
-        self.found += self._judged(behind, 0)
+        self.found += self._judged(behind)
         keys = {cause_key(fit.model.causes[0]) for fit in _of_one_cause(running)}
         others = _others(_promising(candidates), first, SEARCH.starts - 1)
         more = [candidate for candidate in others if cause_key(candidate.cause) in keys]
@@ -293,8 +293,7 @@ class Search:
             kept = {id(fit) for fit in least}
             behind += [fit for fit in begun if id(fit) not in kept]
             ahead += least
-        self.found += self._judged(behind, 0)
-        self.found += self._judged(self._further(ahead))
+        self.found += self._judged([*behind, *self._further(ahead)])
 
     def _extended(self, leading: Hypothesis, only: Cause | None) -> Extended:
         """A hypothesis to which an effect is to be added: any, or that of a cause."""
@@ -583,11 +582,8 @@ class Search:
         law = self.base.model.split(self.base.refit.parameters)[0]
         return np.append(law, model.start[model.base_count :])
 
-    def _not_above_their_parts(self, refits: list[Refit], steps: int = MOST_STEPS) -> list[Refit]:
-        """Refits that leave more than a part of their causes does by itself, begun anew from there.
-
-        Without steps they are left there: what has lost the race is not worth the time.
-        """
+    def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
+        """Refits that leave more than a part of their causes does by itself, begun anew from there."""
         known = [*(hypothesis.refit for hypothesis in self.found), *refits]
         for count in sorted({len(fit.model.causes) for fit in refits}):
             if self.budget.spent():
@@ -605,7 +601,7 @@ class Search:
                     jobs.append((whole.model, _with_others_absent(whole, part)))
                     before.append(whole)
             # A single effect that leaves more than none has lost the race: none of it leaves as much as none.
-            lower = {id(fit.model): fit for fit in self._solved(jobs, steps if count > 1 else 0)}
+            lower = {id(fit.model): fit for fit in self._solved(jobs, MOST_STEPS if count > 1 else 0)}
             better = {
                 id(fit): lower[id(fit.model)]
                 for fit in before
@@ -615,12 +611,9 @@ class Search:
             known += better.values()
         return refits
 
-    def _judged(self, refits: Iterable[Refit], steps: int = MOST_STEPS) -> list[Hypothesis]:
-        """Refits with their evidence; without those of which it cannot be worked out.
-
-        So many steps are taken from a part where that leaves less.
-        """
-        final = self._not_above_their_parts(list(refits), steps)
+    def _judged(self, refits: Iterable[Refit]) -> list[Hypothesis]:
+        """Refits with their evidence; without those of which it cannot be worked out."""
+        final = self._not_above_their_parts(list(refits))
         judged = []
         for fit, known in zip(final, self._evidences(final), strict=True):
             if isinstance(known, str):
