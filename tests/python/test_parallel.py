@@ -11,7 +11,7 @@ import pytest
 
 import probation
 from probation.errors import InputError
-from probation.parallel import at_once, in_parallel
+from probation.parallel import at_once, both, in_parallel
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="processes are copied on Linux alone")
 
@@ -52,6 +52,24 @@ def test_results_come_in_the_order_of_the_items_from_several_processes():
 
 def test_one_process_is_this_one():
     assert {process for _, process in in_parallel(slowly, range(3), 1)} == {os.getpid()}
+
+
+def test_short_work_is_done_here_and_shared_again_once_it_is_long():
+    """A copy costs more than some milliseconds of work; what an item took the last time may mislead."""
+
+    def work(seconds):
+        time.sleep(seconds)
+        return os.getpid()
+
+    in_parallel(work, [0.001] * 4, 2)
+    assert set(in_parallel(work, [0.001] * 4, 2)) == {os.getpid()}
+    assert len(set(in_parallel(work, [0.05] * 6, 2))) == 2
+
+
+def test_two_works_side_by_side():
+    """The first one is worked on here, or in a copy that hands back the same."""
+    assert both(lambda: slowly(2)[0], lambda: "other", 2) == (4, "other")
+    assert both(lambda: slowly(2)[0], lambda: "other", 1) == (4, "other")
 
 
 def test_a_copy_makes_no_further_copies():
@@ -112,7 +130,7 @@ def test_a_copy_goes_on_while_this_process_is_busy():
         return os.getpid(), bytes(300_000)
 
     results = in_parallel(work, range(12), 2)
-    assert [process for process, _ in results].count(FIRST) == 1
+    assert [process for process, _ in results].count(FIRST) <= 2
     assert all(len(data) == 300_000 for _, data in results)
 
 
