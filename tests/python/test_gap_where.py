@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from campaigns import gap_noise
-from probation.detection.lines_and_steps import find_lines, find_steps
+from probation.detection.lines_and_steps import find_lines, find_steps, running_median
 from probation.detection.signatures import parameter_drift
 from probation.detection.where import contribution_regions, locate
 from probation.noise.regions import runs
@@ -194,3 +194,13 @@ def test_a_slope_by_chance_among_records_that_differ_at_random_is_no_slope():
     by_scatter = [p < 0.01 for drift in drifts for p in drift.scatter_p_value.values()]
     assert np.mean(by_noise) > 0.5
     assert np.mean(by_scatter) < 0.07  # 1 % expected of 60
+
+
+@pytest.mark.parametrize(("count", "window"), [(100, 10), (107, 10), (5, 10), (13, 6)])
+def test_a_running_median_runs_from_block_to_block(count, window):
+    """Blocks of about one length, `numpy.array_split`'s; their medians stand at their middles."""
+    values = np.random.default_rng(count).standard_normal(count)
+    blocks = np.array_split(np.arange(count), max(count // window, 1))
+    middles, medians = zip(*((block.mean(), np.median(values[block])) for block in blocks), strict=True)
+    expected = np.interp(np.arange(count), middles, medians)
+    np.testing.assert_array_equal(running_median(values, window), expected)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 KEPT = 32
-"""Bases of slow waves that are kept: of some records, each with and without the slow ones of a fade."""
+"""Bases of slow waves that are kept; a record has one for lines and one for steps."""
 
 
 @dataclass(frozen=True)

@@ -187,16 +187,16 @@ class Search:
             started += self._candidates_at(start)
         candidates = self._credible(sorted(started, key=lambda candidate: -candidate.gain), self.base.refit)
         first = _promising(_first_of_each(candidates))
-        nothing, elsewhere = self.base.refit, self.base.other_starts
-        jobs = self._jobs(nothing, _alone(first), elsewhere)
-        begun = self._solved([*jobs, *self._jobs(nothing, _promising_in_several(candidates))], SEARCH.first_steps)
+        base = self.base
+        jobs = self._jobs(base.refit, _alone(first), base.other_starts)
+        begun = self._solved([*jobs, *self._jobs(base.refit, _promising_in_several(candidates))], SEARCH.first_steps)
         begun += self._each_by_itself(begun)
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind)
         keys = {cause_key(fit.model.causes[0]) for fit in _of_one_cause(running)}
         others = _others(_promising(candidates), first, SEARCH.starts - 1)
         more = [candidate for candidate in others if cause_key(candidate.cause) in keys]
-        polished = self._further(running, self._jobs(nothing, _alone(more), elsewhere))
+        polished = self._further(running, self._jobs(base.refit, _alone(more), base.other_starts))
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
             self.found += self._judged(self._begun_jointly(_of_one_cause(begun)))
@@ -504,7 +504,7 @@ class Search:
             return None
 
     def _further(self, refits: Sequence[Refit], more: Sequence[Job] = ()) -> list[Refit]:
-        """Unfinished refits taken to their ends, and `more` of them; left as they are once the budget is spent."""
+        """Unfinished refits taken to their ends, and `more` begun; once the budget is spent, neither."""
         if self.budget.spent():
             return list(refits)
         return self._solved([*((fit.model, fit) for fit in refits), *more], MOST_STEPS)
@@ -625,7 +625,7 @@ class Search:
         return judged
 
     def _evidences(self, refits: Sequence[Refit]) -> list[Evidence | str]:
-        """The evidence of each refit; why, where it cannot be worked out."""
+        """The evidence of each refit, worked out once; why, where it cannot be."""
 
         def one(fit: Refit) -> Evidence | str:
             try:
@@ -692,7 +692,7 @@ def _parts(causes: Sequence[Cause]) -> list[tuple[bool, ...]]:
 
 
 def _of_one_cause(refits: Iterable[Refit]) -> list[Refit]:
-    """Not those of an effect that acts in several records."""
+    """Refits of one cause, not of an effect that acts in several records."""
     return [fit for fit in refits if len(fit.model.causes) == 1]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from probation.detection.without_lines import without_lines
 from probation.effects.record_view import views_of
-from probation.inference.candidate import Extended, WhitenedColumns, for_a_search_only, screened
+from probation.inference.candidate import Extended, WhitenedColumns, for_a_search_only, for_a_test, screened
 from probation.inference.deviations import deviation_columns
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.modal_law import DnlrLaw
@@ -209,7 +209,7 @@ class BaseFit:
             effects,
             threads=threads,
             unsolved=unsolved,
-            only=lambda form: not form.variant,
+            only=for_a_test,
         )
         return replace(self, signals=tuple(signals))
 
@@ -233,7 +233,7 @@ class BaseFit:
             unsolved=unsolved,
             only=for_a_search_only,
         )
-        fixed = replace(extended, read=False, only=lambda form: not form.variant)
+        fixed = replace(extended, read=False, only=for_a_test)
         found = itertools.chain(*screened([fixed, extended], threads))
         return sorted(found, key=lambda candidate: -candidate.gain)
 

@@ -163,6 +163,11 @@ def screened(extended: Sequence[Extended], threads: int = 1) -> list[list[Candid
     return [each.candidates(own) for each, own in zip(extended, found, strict=True)]
 
 
+def for_a_test(form: Form) -> bool:
+    """All but variants: more directions would be found in more noise."""
+    return not form.variant
+
+
 def for_a_search_only(form: Form) -> bool:
     """Variants, and forms whose starts are read from the residual: a gap test would find what chance put there."""
     return form.variant or form.starts is not None

@@ -15,7 +15,7 @@ from probation.detection.gap_test import GapTest, GapTester
 from probation.detection.sharp_gap import with_sharp
 from probation.errors import InputError
 from probation.inference.calibration_check import check_calibration
-from probation.inference.candidate import WhitenedColumns
+from probation.inference.candidate import WhitenedColumns, for_a_test
 from probation.inference.model import CampaignModel
 from probation.inference.screen import screen
 from probation.law.modification import InitialStress, Modification
@@ -242,7 +242,7 @@ def find_gap(
         whitened = Whitened.of([record], [noise])
         view = next(view for view in base.views if view.id == record.name)
         model = CampaignModel(base.law, [view])
-        signals = screen(model, base.parameters, effects, threads=threads, only=lambda form: not form.variant)
+        signals = screen(model, base.parameters, effects, threads=threads, only=for_a_test)
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
         columns = _columns(signals, whitened)

@@ -101,10 +101,9 @@ class Linearised:
         lower = cholesky(covariance, lower=True, overwrite_a=True, check_finite=False)
         left = solve_triangular(lower, both, lower=True, check_finite=False)
         taken = square_of_both - left.T @ left
-        normal = self.normal - taken[:-1, :-1]
         gradient = self.gradient - taken[:-1, -1]
         square = self.square - float(taken[-1, -1])
-        total = normal
+        total = self.normal - taken[:-1, :-1]
         total[np.diag_indices_from(total)] += self.precision
         pull = gradient + self.precision * self.away
         size = np.sqrt(np.maximum(np.diag(total), 1e-300))

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
-    from probation.effects.effect import Effect, Form, Placement
+    from probation.effects.effect import Effect, Form
     from probation.effects.record_view import RecordView
     from probation.inference.model import CampaignModel
 
@@ -79,8 +79,6 @@ class Asked:
         (n, m) for each cause and start; returns (k, m). It is called where the record is worked on.
     residual : ndarray, shape (n_samples,) [MPa], optional
         Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
-    placements : tuple of {"all", "one"}
-        With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
     unsolved : callable, optional
         Called with each cause that is left out because the law cannot be solved with it, and the error.
     only : callable, optional
@@ -92,7 +90,6 @@ class Asked:
     effects: Sequence[Effect]
     noted: Callable[[int, FloatArray], FloatArray]
     residual: FloatArray | None = None
-    placements: tuple[Placement, ...] = ("all", "one")
     unsolved: Callable[[Cause, Exception], None] | None = None
     only: Callable[[Form], bool] | None = None
 
@@ -172,7 +169,7 @@ class _Screen:
                         continue
                     wanted += [
                         (Cause(effect, form, records), values, views)
-                        for records, views in _placed(model, effect, form, asked.placements)
+                        for records, views in _placed(model, effect, form)
                         for values in _starts(model, form, views, asked.residual)
                     ]
                 except UNSOLVABLE as error:
@@ -227,14 +224,17 @@ def _key(cause: Cause, values: tuple[float, ...]) -> _Key:
 
 
 def _placed(
-    model: CampaignModel, effect: Effect, form: Form, placements: tuple[Placement, ...]
+    model: CampaignModel, effect: Effect, form: Form
 ) -> list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]]:
-    """Where a form may sit: records (None for all), and their views."""
+    """Where a form may sit: records (None for all), and their views.
+
+    With one record "one" is left out: it would repeat "all", unless a form sits nowhere else.
+    """
     possible = effect.placements(form)
     placed: list[tuple[tuple[str, ...] | None, tuple[RecordView, ...]]] = []
-    if "all" in possible and "all" in placements:
+    if "all" in possible:
         placed.append((None, model.views))
-    if "one" in possible and "one" in placements and (len(model.views) > 1 or "all" not in possible):
+    if "one" in possible and (len(model.views) > 1 or "all" not in possible):
         placed += [((view.id,), (view,)) for view in model.views]
     return placed
 
