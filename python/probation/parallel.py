@@ -14,16 +14,18 @@ import gc
 import os
 import pickle
 import signal
+import struct
 import sys
 import threading
 import time
 import warnings
+from collections import deque
 from contextlib import contextmanager, suppress
 from functools import wraps
 from multiprocessing import Pipe, parent_process
 from multiprocessing.connection import Connection, wait
 from queue import SimpleQueue
-from typing import TYPE_CHECKING, Any, NoReturn, ParamSpec, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NoReturn, ParamSpec, Self, TypeVar
 
 from threadpoolctl import threadpool_limits
 
@@ -92,6 +94,8 @@ def in_parallel(
 ) -> list[Result]:
     """Results in the order of the items, each worked out here or in a copy of this process.
 
+    The copies are made for these items alone, which need not be data; else as `Copies.results`.
+
     Parameters
     ----------
     work : callable
@@ -100,53 +104,13 @@ def in_parallel(
         At work, this one among them.
     progress : callable, optional
         Called here with the part of the items that is done, 0 to 1.
-
-    Raises
-    ------
-    Exception
-        What `work` raises here: an item that fails in a copy, or is lost with it, is worked out here once more.
     """
-    done: dict[int, Result] = {}
-    longest, spent, tried = 0.0, 0.0, 0
 
-    def finish(number: int, result: Result) -> None:
-        if number not in done:
-            done[number] = result
-            if progress is not None:
-                progress(len(done) / len(items))
+    def numbered(number: int) -> Result:
+        return work(items[number])
 
-    def here(number: int) -> None:
-        nonlocal longest, spent, tried
-        begun = time.monotonic()
-        finish(number, _fresh(work, items[number]))
-        took = time.monotonic() - begun
-        longest, spent, tried = max(longest, took), spent + took, tried + 1
-
-    code = getattr(work, "__code__", None)
-    usual, first = _taken.get(code, WORTH_A_COPY), 0
-    try:
-        while usual * (len(items) - first) < WORTH_A_COPY and first < len(items):
-            here(first)
-            usual, first = max(usual, spent / tried), first + 1
-        copies = min(processes, len(items) - first) - 1
-        if copies > 0 and sys.platform == "linux" and not _is_copy and parent_process() is None:
-            with _numbers(first, len(items)) as numbers, _copies(work, items, numbers, copies) as connections:
-                while connections and (number := _next(numbers)):
-                    here(number - 1)
-                    while _receive(connections, finish, 0.0):
-                        pass
-                while connections and len(done) < len(items):
-                    if not _receive(connections, finish, max(PATIENCE, 3.0 * longest)):
-                        here(next(number for number in range(len(items)) if number not in done))
-        for number in range(len(items)):
-            if number not in done:
-                here(number)
-    finally:
-        for forget in BEFORE_EACH:
-            forget()
-    if tried and code is not None:
-        _taken[code] = spent / tried
-    return [done[number] for number in range(len(items))]
+    with Copies(numbered, min(processes, len(items)), like=work) as copies:
+        return copies.results(range(len(items)), progress)
 
 
 def both(first: Callable[[], Result], second: Callable[[], Other], processes: int) -> tuple[Result, Other]:
@@ -156,63 +120,286 @@ def both(first: Callable[[], Result], second: Callable[[], Other], processes: in
     return one, other
 
 
+class Copies(Generic[Item, Result]):
+    """Copies of this process that work on what they are handed, one batch after the other, until they are closed.
+
+    They are made with the first batch that is worth it, and know what this process knew then.
+
+    Parameters
+    ----------
+    work : callable
+        What it changes in a copy is lost. What it takes and returns is data, without objects that are known by their
+        identity.
+    processes : int
+        At work, this one among them.
+    like : callable, optional
+        Whose items take as long, if not those of `work`.
+    """
+
+    def __init__(
+        self, work: Callable[[Item], Result], processes: int, like: Callable[..., object] | None = None
+    ) -> None:
+        self._work = work
+        self._count = processes - 1
+        self._code = getattr(like or work, "__code__", None)
+        self._team: _Team | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the copies; what comes afterwards is done by new ones."""
+        team, self._team = self._team, None
+        if team is not None:
+            team.close()
+
+    def results(self, items: Sequence[Item], progress: Callable[[float], None] | None = None) -> list[Result]:
+        """Results in the order of the items, each worked out here or in a copy of this process.
+
+        Parameters
+        ----------
+        items : sequence
+        progress : callable, optional
+            Called here with the part of the items that is done, 0 to 1.
+
+        Raises
+        ------
+        Exception
+            What `work` raises here: an item that fails in a copy, or is lost with it, is worked out here once more.
+        """
+        batch = _Batch(self._work, items, progress)
+        usual = _taken.get(self._code, WORTH_A_COPY)
+        try:
+            while self._team is None and 0.0 < usual * batch.left < WORTH_A_COPY:
+                batch.here(batch.first_left())
+                usual = max(usual, batch.usual)
+            if batch.left > 1 and (team := self._made()) is not None:
+                team.work_on(batch)
+                if team.late or not team.connections:
+                    self.close()
+            while batch.left:
+                batch.here(batch.first_left())
+        except BaseException:
+            self.close()
+            raise
+        finally:
+            for forget in BEFORE_EACH:
+                forget()
+        if batch.usual > 0.0 and self._code is not None:
+            _taken[self._code] = batch.usual
+        return [batch.done[number] for number in range(len(items))]
+
+    def _made(self) -> _Team | None:
+        """The copies, where there can be any."""
+        alone = self._count < 1 or sys.platform != "linux" or _is_copy or parent_process() is not None
+        if self._team is None and not alone:
+            team = _Team()
+            team.begin(self._work, self._count)
+            self._team = team
+        return self._team
+
+
+class _Batch(Generic[Item, Result]):
+    """Items of one call, and what is done of them.
+
+    Attributes
+    ----------
+    done : dict of int to Result
+        By number.
+    longest, usual : float
+        What an item took in this process, the longest and on the average [s]; 0 as long as it had none.
+    """
+
+    def __init__(
+        self, work: Callable[[Item], Result], items: Sequence[Item], progress: Callable[[float], None] | None
+    ) -> None:
+        self.done: dict[int, Result] = {}
+        self.items = items
+        self.longest, self.usual = 0.0, 0.0
+        self._work, self._progress = work, progress
+        self._tried, self._first = 0, 0
+
+    @property
+    def left(self) -> int:
+        """How many are not done."""
+        return len(self.items) - len(self.done)
+
+    def first_left(self) -> int:
+        """The first that is not done."""
+        while self._first in self.done:
+            self._first += 1
+        return self._first
+
+    def finish(self, number: int, result: Result) -> None:
+        """One is done."""
+        if number not in self.done:
+            self.done[number] = result
+            if self._progress is not None:
+                self._progress(len(self.done) / len(self.items))
+
+    def here(self, number: int) -> None:
+        """Work one out in this process."""
+        begun = time.monotonic()
+        self.finish(number, _fresh(self._work, self.items[number]))
+        took = time.monotonic() - begun
+        self.longest = max(self.longest, took)
+        self.usual += (took - self.usual) / (self._tried + 1)
+        self._tried += 1
+
+
 def _fresh(work: Callable[[Item], Result], item: Item) -> Result:
     for forget in BEFORE_EACH:
         forget()
     return work(item)
 
 
-@contextmanager
-def _numbers(first: int, end: int) -> Iterator[int]:
-    """A pipe with the numbers from first + 1 to `end`, as many as it holds: whoever is free takes the next one."""
-    reading, writing = os.pipe()
-    try:
-        os.set_blocking(reading, False)
-        os.set_blocking(writing, False)
-        with suppress(BlockingIOError):
-            for number in range(first + 1, end + 1):
-                os.write(writing, number.to_bytes(_NUMBER, "little"))
-        os.close(writing)
-        yield reading
-    finally:
-        os.close(reading)
+_TICKET = struct.Struct("<IQI")
+"""Of an item that is handed out: its number, and where it stands in the file, from which byte and how many."""
 
 
-def _next(numbers: int) -> int:
-    """The next number; 0 when all are taken."""
-    try:
-        return int.from_bytes(os.read(numbers, _NUMBER), "little")
-    except BlockingIOError:  # a process that has nothing to do with this one holds the end for writing
-        return 0
+class _Team:
+    """Copies of this process, and what they are handed.
 
+    Items stand in a file in memory, tickets for them in a pipe: whoever is free takes the next one.
 
-@contextmanager
-def _copies(
-    work: Callable[[Item], Result], items: Sequence[Item], numbers: int, count: int
-) -> Iterator[list[Connection[Any, Any]]]:
-    """Connections to copies of this process that are at work, as many as can be made; none is left at the end."""
-    started: list[int] = []
-    connections: list[Connection[Any, Any]] = []
-    try:
+    Attributes
+    ----------
+    connections : list of Connection
+        To copies that are at work.
+    late : bool
+        Whether a copy has not answered in good time.
+    """
+
+    def __init__(self) -> None:
+        self.connections: list[Connection[Any, Any]] = []
+        self.late = False
+        self._failed: list[int] = []
+        self._started: list[int] = []
+        self._files: list[int] = []
+        self._waiting: deque[bytes] = deque()
+
+    def begin(self, work: Callable[[Any], object], count: int) -> None:
+        """Make as many copies as can be made."""
         with _interrupts_deferred(), suppress(OSError):  # no further process, or no further file
+            self._files += os.pipe()
+            self._files.append(os.memfd_create("handed out"))
+            for each in self._files[:2]:
+                os.set_blocking(each, False)
             for _ in range(count):
                 here, there = Pipe(duplex=False)
-                connections.append(here)
+                self.connections.append(here)
                 with there:
                     process = _fork()
                     if process == 0:
-                        _work_as_a_copy(work, items, numbers, there, connections)
-                started.append(process)
-        yield connections
-    finally:
+                        self._serve(work, there)
+                self._started.append(process)
+
+    def close(self) -> None:
+        """End the copies; none is left."""
         with _interrupts_deferred():
-            for process in started:
+            for process in self._started:
                 with suppress(ProcessLookupError):
                     os.kill(process, signal.SIGKILL)
                 with suppress(ChildProcessError):  # ended, and somebody else has waited for it
                     os.waitpid(process, 0)
-            for connection in connections:
+            for connection in self.connections:
                 connection.close()
+            for each in self._files:
+                os.close(each)
+
+    def work_on(self, batch: _Batch[Any, Any]) -> None:
+        """Work on what is left of a batch, here and in the copies, until it is done or no copy is left."""
+        if self.connections:
+            self._hand_out(batch)
+        while (number := self._next()) is not None:
+            batch.here(number)
+            while self._receive(batch, 0.0):
+                pass
+        while self.connections and batch.left:
+            if self._failed:
+                batch.here(self._failed.pop())
+            elif not self._receive(batch, max(PATIENCE, 3.0 * batch.longest)):
+                batch.here(batch.first_left())
+                self.late = True
+
+    def _hand_out(self, batch: _Batch[Any, Any]) -> None:
+        """Write the items where all can read them, and tickets for them."""
+        _, _, file = self._files
+        os.ftruncate(file, 0)
+        offset = 0
+        for number in range(batch.first_left(), len(batch.items)):  # what is done already was done in this order
+            written = pickle.dumps(batch.items[number], pickle.HIGHEST_PROTOCOL)
+            os.pwrite(file, written, offset)
+            self._waiting.append(_TICKET.pack(number, offset, len(written)))
+            offset += len(written)
+
+    def _next(self) -> int | None:
+        """The number of the next item for this process; None when all are taken, or no copy is left."""
+        if not self.connections:
+            return None
+        reading, writing, _ = self._files
+        while True:
+            with suppress(BlockingIOError):
+                while self._waiting:
+                    os.write(writing, self._waiting[0])
+                    self._waiting.popleft()
+            try:
+                number, _, _ = _TICKET.unpack(os.read(reading, _TICKET.size))
+            except BlockingIOError:
+                if self._waiting:
+                    continue  # the copies have emptied the pipe meanwhile
+                return None
+            return int(number)
+
+    def _receive(self, batch: _Batch[Any, Any], seconds: float) -> bool:
+        """Take what comes within so many seconds, and say whether anything did; connections that have ended go."""
+        ready = wait(self.connections, seconds)
+        for connection in [each for each in self.connections if each in ready]:
+            try:
+                message = connection.recv_bytes()
+            except (EOFError, OSError):
+                self.connections.remove(connection)
+                connection.close()
+                continue
+            number = int.from_bytes(message[:_NUMBER], "little")
+            try:
+                result = pickle.loads(memoryview(message)[_NUMBER:])
+            except Exception:  # of any kind: it is worked out here
+                self._failed.append(number)
+            else:
+                batch.finish(number, result)
+        return bool(ready)
+
+    def _serve(self, work: Callable[[Any], object], results: Connection[Any, Any]) -> NoReturn:
+        """Be a copy: take a ticket, work, hand the result back, until the first process closes the pipe."""
+        global _is_copy  # noqa: PLW0603 - a copy makes no copies
+        try:
+            _is_copy = True
+            # Ctrl-C goes to the first process, which ends this one.
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+            signal.set_wakeup_fd(-1)
+            signal.signal(signal.SIGTERM, signal.SIG_DFL)
+            reading, writing, file = self._files
+            os.close(writing)
+            for each in self.connections:  # so that writing fails when the first process is gone
+                each.close()
+            # Streams without a lock that another thread may have had.
+            sys.stdout, sys.stderr = (open(number, "w", 1, closefd=False) for number in (1, 2))  # noqa: SIM115
+            gc.freeze()  # a collection would write to all objects that the processes share, and so copy them
+            with _Sender(results) as sender:
+                while sender.connected and (ticket := _awaited(reading)):
+                    number, offset, size = _TICKET.unpack(ticket)
+                    try:
+                        result = _fresh(work, pickle.loads(os.pread(file, size, offset)))
+                        written = pickle.dumps(result, pickle.HIGHEST_PROTOCOL)
+                    except Exception:  # it is worked out by the first process
+                        written = b""
+                    sender.send(number.to_bytes(_NUMBER, "little") + written)
+        finally:
+            os._exit(0)  # without what this process would do at its end: that is the first one's
 
 
 def _fork() -> int:
@@ -221,31 +408,12 @@ def _fork() -> int:
         return os.fork()
 
 
-def _work_as_a_copy(
-    work: Callable[[Item], Result],
-    items: Sequence[Item],
-    numbers: int,
-    results: Connection[Any, Any],
-    others: Sequence[Connection[Any, Any]],
-) -> NoReturn:
-    """Take a number, work, hand the result back; an item that fails is left to the first process."""
-    global _is_copy  # noqa: PLW0603 - a copy makes no copies
-    try:
-        _is_copy = True
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # Ctrl-C goes to the first process, which ends this
-        signal.set_wakeup_fd(-1)
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        for each in others:  # so that writing fails when the first process is gone
-            each.close()
-        # Streams without a lock that another thread may have had.
-        sys.stdout, sys.stderr = (open(number, "w", 1, closefd=False) for number in (1, 2))  # noqa: SIM115
-        gc.freeze()  # a collection would write to all objects that the processes share, and so copy them
-        with _Sender(results) as sender:
-            while (number := _next(numbers)) and sender.connected:
-                with suppress(Exception):
-                    sender.send((number - 1, _fresh(work, items[number - 1])))
-    finally:
-        os._exit(0)  # without what this process would do at its end: that is the first one's
+def _awaited(tickets: int) -> bytes:
+    """The next ticket, once there is one; none when nobody is left who would hand one out."""
+    while True:
+        wait([tickets])
+        with suppress(BlockingIOError):  # another copy took it
+            return os.read(tickets, _TICKET.size)
 
 
 class _Sender:
@@ -271,9 +439,9 @@ class _Sender:
         self._results.put(None)
         self._thread.join()
 
-    def send(self, result: object) -> None:
-        """Put a result on its way; what cannot be pickled fails here."""
-        self._results.put(pickle.dumps(result, pickle.HIGHEST_PROTOCOL))
+    def send(self, result: bytes) -> None:
+        """Put a result on its way."""
+        self._results.put(result)
 
     def _work(self) -> None:
         while (result := self._results.get()) is not None:
@@ -282,22 +450,6 @@ class _Sender:
             except OSError:
                 self.connected = False
                 return
-
-
-def _receive(connections: list[Connection[Any, Any]], finish: Callable[[int, Any], None], seconds: float) -> bool:
-    """Take what comes within so many seconds, and say whether anything did; connections that have ended go."""
-    ready = wait(connections, seconds)
-    for connection in [each for each in connections if each in ready]:
-        try:
-            number, result = connection.recv()
-        except (EOFError, OSError):
-            connections.remove(connection)
-            connection.close()
-        except Exception:
-            continue
-        else:
-            finish(number, result)
-    return bool(ready)
 
 
 @contextmanager

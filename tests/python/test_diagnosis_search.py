@@ -126,8 +126,8 @@ def test_nothing_less_beats_what_leads_in_the_end(made, monkeypatch):
     judged = []
     for smaller, start in jobs:
         try:
-            fit = search._refit(smaller, start, MOST_STEPS)
-            found = Hypothesis(fit, search._evidence(fit))
+            fit = search.refitting.refit(smaller, start, MOST_STEPS)
+            found = Hypothesis(fit, search.refitting.evidence(fit))
         except UNSOLVABLE:
             continue
         judged.append(found.as_reached(search.found[0]).evidence.log_evidence)

@@ -7,11 +7,12 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import probation
 from probation.errors import InputError
-from probation.parallel import at_once, both, in_parallel
+from probation.parallel import Copies, at_once, both, in_parallel
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="processes are copied on Linux alone")
 
@@ -216,6 +217,65 @@ def test_no_descriptor_is_left_open():
         in_parallel(lambda item: item, range(3), 3)
     assert len(list(Path("/proc/self/fd").iterdir())) == before
     assert no_copies_left()
+
+
+def test_copies_go_on_to_the_next_batch_until_they_are_closed():
+    """Items that were not known when the copies were made are handed over."""
+
+    def work(item):
+        time.sleep(0.02)
+        return item.sum(), os.getpid()
+
+    with Copies(work, 3) as copies:
+        batches = [copies.results([np.full(1000, number + size) for number in range(9)]) for size in (0.5, 1.5)]
+    processes = [{process for _, process in batch} for batch in batches]
+    assert processes[0] == processes[1]
+    assert len(processes[0]) == 3
+    assert [total for total, _ in batches[1]] == [1000 * (number + 1.5) for number in range(9)]
+    assert no_copies_left()
+
+
+def test_a_batch_after_one_whose_copies_were_lost_is_worked_out():
+    def fatal(item):
+        time.sleep(0.02)
+        if in_a_copy() and item < 4:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return item
+
+    with Copies(fatal, 2) as copies:
+        assert copies.results(range(4)) == list(range(4))
+        assert copies.results(range(4, 8)) == list(range(4, 8))
+    assert no_copies_left()
+
+
+def test_an_item_that_fails_in_a_copy_alone_is_worked_out_here_at_once():
+    def fails(item):
+        time.sleep(0.02)
+        if in_a_copy():
+            raise ArithmeticError(f"item {item}")
+        return item
+
+    with Copies(fails, 2) as copies:
+        started = time.monotonic()
+        assert copies.results(range(10)) == copies.results(range(10)) == list(range(10))
+        assert time.monotonic() - started < 1.5
+
+
+def test_copies_end_with_the_first_process():
+    """Also where it is killed and closes nothing."""
+    script = """
+import os, signal, time
+from probation.parallel import Copies
+copies = Copies(lambda item: (time.sleep(0.05), os.getpid())[1], 2)
+(other,) = set(copies.results(range(6))) - {os.getpid()}
+print(other, flush=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+    _, output = within(60.0, script)
+    deadline = time.monotonic() + 10.0
+    while Path(f"/proc/{int(output)}").exists() and "State:\tZ" not in Path(f"/proc/{int(output)}/status").read_text():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
 
 
 def test_plans_and_isolability_are_the_same_to_the_last_digit():

@@ -170,8 +170,8 @@ def _searched(
     progress: Callable[[float], None],
 ) -> tuple[BaseFit, list[Hypothesis]]:
     """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
-    search = Search(base, considered, threads, progress, skipping, budget)
-    hypotheses = search.run()
+    with Search(base, considered, threads, progress, skipping, budget) as search:
+        hypotheses = search.run()
     leading = search.ranked()
     if not leading:
         return base, hypotheses

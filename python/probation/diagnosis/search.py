@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from itertools import combinations, compress, product
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -13,31 +13,26 @@ from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.strain_periodic import find_strain_periodic
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.hypothesis import Hypothesis
+from probation.diagnosis.refitting import Refitting
 from probation.diagnosis.skipped import Skipping
 from probation.effects.cause import Cause
-from probation.inference.base_fit import specimens_hold_the_gap, with_joint_noise
+from probation.inference.base_fit import with_joint_noise
 from probation.inference.candidate import Candidate, Extended, Key, cause_key, screened
-from probation.inference.evidence import evidence
-from probation.inference.form_error import form_freedom
-from probation.inference.refit import MOST_STEPS, Ended, Refit, refit
-from probation.inference.remembering import RememberingModel
+from probation.inference.refit import MOST_STEPS, Refit
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of, without
-from probation.parallel import in_parallel
 from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
+    from probation.diagnosis.refitting import Job
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.evidence import Evidence
     from probation.inference.model import CampaignModel
     from probation.noise.whitening import Whitened
-
-    Job: TypeAlias = "tuple[CampaignModel, FloatArray | Refit]"
-    """A model, and where its refit begins."""
 
 
 _USUAL = 20
@@ -74,7 +69,14 @@ class Search:
     _weighed: WeakKeyDictionary[Refit, Evidence | str] = field(default_factory=WeakKeyDictionary)
 
     def __post_init__(self) -> None:
-        self.found.append(Hypothesis(self.base.refit, self._evidence(self.base.refit, unknown=True)))
+        self.refitting = Refitting(self.base, self.effects, self.threads, self.budget)
+        self.found.append(Hypothesis(self.base.refit, self.refitting.evidence(self.base.refit, unknown=True)))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.refitting.close()
 
     def run(self) -> list[Hypothesis]:
         """Singles, then combinations while something is left."""
@@ -117,14 +119,16 @@ class Search:
         """
         leading = self.ranked(1, acting_once=True)
         if leading:
+            self.refitting.close()
             self.base = with_joint_noise(self.base, leading[0].refit)
-            self.found = self._on_top_of(self.base, np.inf).found
+            again = self._on_top_of(self.base, np.inf)
+            self.found, self.refitting = again.found, again.refitting
 
     def reconsidered(self, base: BaseFit) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
-        again = self._on_top_of(base, SEARCH.hopeless)
-        again._parts_of_the_leader()
-        again._begun_anew()
+        with self._on_top_of(base, SEARCH.hopeless) as again:
+            again._parts_of_the_leader()
+            again._begun_anew()
         return again.found
 
     def _on_top_of(self, base: BaseFit, hopeless: float) -> Search:
@@ -517,70 +521,16 @@ class Search:
     def _solved_in_groups(self, groups: Sequence[Sequence[Job]], steps: int) -> list[list[Refit]]:
         """The same of several groups, all at once."""
         jobs = [job for group in groups for job in group]
-        nothing_yet = len(self.found) == 1
-
-        def one(numbered: tuple[int, Job]) -> Ended | str:
-            number, (model, start) = numbered
-            if self.budget.spent() and not (nothing_yet and number == 0):
-                return self.budget.why
-            try:
-                return self._refit(model, start, steps).ended
-            except UNSOLVABLE as error:
-                return str(error)
-
-        all_ended = iter(in_parallel(one, list(enumerate(jobs)), self.threads, self._moved))
+        refits = iter(self.refitting.refits(jobs, steps, always_one=len(self.found) == 1, progress=self._moved))
         solved: list[list[Refit]] = []
         for group in groups:
             solved.append([])
-            for (model, _), ended in zip(group, all_ended, strict=False):
-                if isinstance(ended, str):
-                    self.skipping.hypothesis(model.causes, ended)
+            for (model, _), fit in zip(group, refits, strict=False):
+                if isinstance(fit, str):
+                    self.skipping.hypothesis(model.causes, fit)
                 else:
-                    solved[-1].append(Refit.of(self.base.problem.with_model(model), ended))
+                    solved[-1].append(fit)
         return solved
-
-    def _refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
-        """From one start; where specimens differ, not to where their deviations have to hold a gap.
-
-        With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
-        they do not explain. So the search for specimens that are alike comes first there, and ends where the next steps
-        of specimens that differ would leave more, unless there it explains less than no effect does: a fault in one
-        record pulls the law of specimens that are alike. Elsewhere a refit of specimens that differ comes first.
-        """
-        if not self.base.scatter.any:
-            return refit(self.base.problem.with_model(model), start, most_steps=steps)
-        model = RememberingModel(model)
-        problem, noises = self.base.problem.with_model(model), self.base.alike.noises
-        if isinstance(start, Refit):
-            start = replace(start, problem=problem)
-            first, misfit = start.parameters, start.chi_square
-        else:
-            first = start
-            with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
-                misfit = float(np.sum(problem.residual_and_jacobian(first)[0] ** 2))
-        if misfit <= len(self.base.whitened) + SEARCH.strong_gap:
-            fit = refit(problem, start, most_steps=steps)
-            if not specimens_hold_the_gap(model, noises, first, fit.parameters):
-                return fit
-        alike = refit(problem.with_noises(noises), first, most_steps=steps).parameters
-        begun = refit(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
-        if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
-            if begun.steps < SEARCH.steps_apart:
-                return begun
-            fit = refit(problem, begun, most_steps=steps)
-            if not specimens_hold_the_gap(model, noises, alike, fit.parameters):
-                return fit
-        there = refit(problem, alike, most_steps=0)
-        if there.chi_square <= self.base.refit.chi_square:
-            return there
-        fit = refit(problem, begun, most_steps=steps)
-        held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
-        return there if held else fit
-
-    def _without_effect(self, model: CampaignModel) -> FloatArray:
-        """The base fit as parameters of a model whose causes are absent."""
-        law = self.base.model.split(self.base.refit.parameters)[0]
-        return np.append(law, model.start[model.base_count :])
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there."""
@@ -626,20 +576,9 @@ class Search:
 
     def _evidences(self, refits: Sequence[Refit]) -> list[Evidence | str]:
         """The evidence of each refit, worked out once; why, where it cannot be."""
-
-        def one(fit: Refit) -> Evidence | str:
-            try:
-                return self._evidence(fit)
-            except UNSOLVABLE as error:
-                return str(error)
-
         new = [fit for fit in refits if fit not in self._weighed]
-        self._weighed.update(zip(new, in_parallel(one, new, self.threads), strict=True))
+        self._weighed.update(zip(new, self.refitting.evidences(new), strict=True))
         return [self._weighed[fit] for fit in refits]
-
-    def _evidence(self, fit: Refit, *, unknown: bool = False) -> Evidence:
-        forms = form_freedom(fit, self.base.whitener)
-        return evidence(fit, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown)
 
     def _try_with_unknown(self) -> None:
         """Whether the leading hypotheses leave room for an unknown effect: for all of them it would take long."""
@@ -650,8 +589,11 @@ class Search:
         ]
         untried = {id(known): known for known in ahead if not np.isfinite(known.evidence.log_evidence_unknown)}
         refits = [hypothesis.refit for hypothesis in untried.values()]
-        evidences = in_parallel(lambda fit: self._evidence(fit, unknown=True), refits, self.threads)
-        weighed = dict(zip(untried, map(Hypothesis, refits, evidences), strict=True))
+        weighed = {
+            number: Hypothesis(fit, known)
+            for number, fit, known in zip(untried, refits, self.refitting.evidences(refits, unknown=True), strict=True)
+            if not isinstance(known, str)
+        }
         self.found = [weighed.get(id(hypothesis), hypothesis) for hypothesis in self.found]
 
     def _begin(self, low: float, high: float) -> None:

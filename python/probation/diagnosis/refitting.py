@@ -1,0 +1,176 @@
+"""Refits of sets of causes on one base fit, and what the data say of each; many of them, several at once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from probation.effects.cause import Cause
+from probation.inference.base_fit import specimens_hold_the_gap
+from probation.inference.candidate import cause_key
+from probation.inference.evidence import Evidence, evidence
+from probation.inference.form_error import form_freedom
+from probation.inference.refit import Ended, Refit, refit
+from probation.inference.remembering import RememberingModel
+from probation.inference.unsolvable import UNSOLVABLE
+from probation.parallel import Copies
+from probation.settings.search import SEARCH
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from probation._arrays import FloatArray
+    from probation.diagnosis.budget import Budget
+    from probation.effects.effect import Effect
+    from probation.inference.base_fit import BaseFit
+    from probation.inference.candidate import Key
+    from probation.inference.model import CampaignModel
+
+    Job: TypeAlias = "tuple[CampaignModel, FloatArray | Refit]"
+    """A model, and where its refit begins."""
+
+
+class _Begun(NamedTuple):
+    """Causes to be refitted, as data: another process knows them by their names."""
+
+    keys: tuple[Key, ...]
+    start: FloatArray | Ended
+    steps: int
+    always: bool
+
+
+class _Found(NamedTuple):
+    """A refit to be weighed, as data."""
+
+    keys: tuple[Key, ...]
+    ended: Ended
+    unknown: bool
+
+
+class Refitting:
+    """Works out refits and evidences on one base fit, in copies of this process until it is closed.
+
+    Parameters
+    ----------
+    base : BaseFit
+    effects : sequence of Effect
+        Of all causes.
+    threads : int
+    budget : Budget
+        Once it is spent, nothing is refitted.
+    """
+
+    def __init__(self, base: BaseFit, effects: Sequence[Effect], threads: int, budget: Budget) -> None:
+        self.base = base
+        self._effects = {effect.name: effect for effect in effects}
+        self._budget = budget
+        self._copies: Copies[_Begun | _Found, Ended | Evidence | str] = Copies(self._done, threads)
+
+    def close(self) -> None:
+        """End the copies."""
+        self._copies.close()
+
+    def refits(
+        self,
+        jobs: Sequence[Job],
+        steps: int,
+        *,
+        always_one: bool = False,
+        progress: Callable[[float], None] | None = None,
+    ) -> list[Refit | str]:
+        """Refits from models and starts, of at most so many steps; why, where there is none.
+
+        Parameters
+        ----------
+        jobs : sequence of (CampaignModel, ndarray or Refit)
+        steps : int
+        always_one : bool
+            Whether the first one is solved even where the budget is spent.
+        progress : callable, optional
+            Called with the part that is done.
+        """
+        begun = [
+            _Begun(_keys_of(model), start.ended if isinstance(start, Refit) else start, steps, always_one and not at)
+            for at, (model, start) in enumerate(jobs)
+        ]
+        ended = self._copies.results(begun, progress)
+        return [
+            Refit.of(self.base.problem.with_model(model), one) if isinstance(one, Ended) else str(one)
+            for (model, _), one in zip(jobs, ended, strict=True)
+        ]
+
+    def evidences(self, fits: Sequence[Refit], *, unknown: bool = False) -> list[Evidence | str]:
+        """The evidence of each refit, jointly with an unknown effect, too, where that is asked for; why, if none."""
+        found = [_Found(_keys_of(fit.model), fit.ended, unknown) for fit in fits]
+        return [one if isinstance(one, Evidence) else str(one) for one in self._copies.results(found)]
+
+    def evidence(self, fit: Refit, *, unknown: bool = False) -> Evidence:
+        """The evidence of one, worked out here."""
+        forms = form_freedom(fit, self.base.whitener)
+        return evidence(fit, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown)
+
+    def _done(self, task: _Begun | _Found) -> Ended | Evidence | str:
+        model = self.base.model.with_causes(self._cause(*key) for key in task.keys)
+        problem = self.base.problem.with_model(model)
+        try:
+            if isinstance(task, _Found):
+                return self.evidence(Refit.of(problem, task.ended), unknown=task.unknown)
+            if self._budget.spent() and not task.always:
+                return self._budget.why
+            start = Refit.of(problem, task.start) if isinstance(task.start, Ended) else task.start
+            return self.refit(model, start, task.steps).ended
+        except UNSOLVABLE as error:
+            return str(error)
+
+    def _cause(self, name: str, form: str, records: tuple[str, ...] | None) -> Cause:
+        effect = self._effects[name]
+        return Cause(effect, effect.form(form), records)
+
+    def refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
+        """From one start; where specimens differ, not to where their deviations have to hold a gap.
+
+        With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
+        they do not explain. So the search for specimens that are alike comes first there, and ends where the next steps
+        of specimens that differ would leave more, unless there it explains less than no effect does: a fault in one
+        record pulls the law of specimens that are alike. Elsewhere a refit of specimens that differ comes first.
+        """
+        if not self.base.scatter.any:
+            return refit(self.base.problem.with_model(model), start, most_steps=steps)
+        model = RememberingModel(model)
+        problem, noises = self.base.problem.with_model(model), self.base.alike.noises
+        if isinstance(start, Refit):
+            start = replace(start, problem=problem)
+            first, misfit = start.parameters, start.chi_square
+        else:
+            first = start
+            with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
+                misfit = float(np.sum(problem.residual_and_jacobian(first)[0] ** 2))
+        if misfit <= len(self.base.whitened) + SEARCH.strong_gap:
+            fit = refit(problem, start, most_steps=steps)
+            if not specimens_hold_the_gap(model, noises, first, fit.parameters):
+                return fit
+        alike = refit(problem.with_noises(noises), first, most_steps=steps).parameters
+        begun = refit(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
+        if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
+            if begun.steps < SEARCH.steps_apart:
+                return begun
+            fit = refit(problem, begun, most_steps=steps)
+            if not specimens_hold_the_gap(model, noises, alike, fit.parameters):
+                return fit
+        there = refit(problem, alike, most_steps=0)
+        if there.chi_square <= self.base.refit.chi_square:
+            return there
+        fit = refit(problem, begun, most_steps=steps)
+        held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
+        return there if held else fit
+
+    def _without_effect(self, model: CampaignModel) -> FloatArray:
+        """The base fit as parameters of a model whose causes are absent."""
+        law = self.base.model.split(self.base.refit.parameters)[0]
+        return np.append(law, model.start[model.base_count :])
+
+
+def _keys_of(model: CampaignModel) -> tuple[Key, ...]:
+    return tuple(cause_key(cause) for cause in model.causes)
