@@ -76,7 +76,7 @@ def _at_zero(base: BaseFit, columns: WhitenedColumns, index: int) -> Refit:
     jacobian = np.zeros((len(base.whitened), len(parameters)))
     jacobian[:, : model.base_count] = base.refit.jacobian
     jacobian[:, model.base_count] = columns.matrix[:, index]
-    return Refit(problem, parameters, base.refit.residual, jacobian, Coordinates.of_model(model), 0)
+    return Refit(problem, parameters, base.refit.residual, jacobian, Coordinates.of_model(model))
 
 
 def _sharp(fit: Refit) -> bool:

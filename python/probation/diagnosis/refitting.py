@@ -12,7 +12,7 @@ from probation.inference.base_fit import specimens_hold_the_gap
 from probation.inference.candidate import cause_key
 from probation.inference.evidence import Evidence, evidence
 from probation.inference.form_error import form_freedom
-from probation.inference.refit import Ended, Refit, refit
+from probation.inference.refit import Ended, Refit, reached, refit
 from probation.inference.remembering import RememberingModel
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import Copies
@@ -151,18 +151,18 @@ class Refitting:
             fit = refit(problem, start, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, first, fit.parameters):
                 return fit
-        alike = refit(problem.with_noises(noises), first, most_steps=steps).parameters
-        begun = refit(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
+        alike = reached(problem.with_noises(noises), first, most_steps=steps).parameters
+        begun = reached(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
         if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
             if begun.steps < SEARCH.steps_apart:
-                return begun
-            fit = refit(problem, begun, most_steps=steps)
+                return refit(problem, begun.parameters, most_steps=0)
+            fit = refit(problem, begun.parameters, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, alike, fit.parameters):
                 return fit
         there = refit(problem, alike, most_steps=0)
         if there.chi_square <= self.base.refit.chi_square:
             return there
-        fit = refit(problem, begun, most_steps=steps)
+        fit = refit(problem, begun.parameters, most_steps=steps)
         held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
         return there if held else fit
 

@@ -7,6 +7,7 @@ answers.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
@@ -104,17 +105,33 @@ class Minimum:
     x : ndarray, shape (p,)
     cost : float
         Sum of squares and the prior's penalty.
-    residual : ndarray, shape (n,)
-    jacobian : ndarray, shape (n, p)
     steps : int
         That were taken.
+    objective : Objective
+    known : (ndarray, ndarray) or None
+        Its tangent here; None where the last step that was allowed ended, as long as nobody asks.
     """
 
     x: FloatArray
     cost: float
-    residual: FloatArray
-    jacobian: FloatArray
     steps: int
+    objective: Objective
+    known: tuple[FloatArray, FloatArray] | None = None
+
+    @cached_property
+    def tangent(self) -> tuple[FloatArray, FloatArray]:
+        """Residual (n,) and its derivatives (n, p); it raises what the objective does where it has none."""
+        return self.objective.tangent(self.x) if self.known is None else self.known
+
+    @property
+    def residual(self) -> FloatArray:
+        """Shape (n,)."""
+        return self.tangent[0]
+
+    @property
+    def jacobian(self) -> FloatArray:
+        """Shape (n, p)."""
+        return self.tangent[1]
 
 
 def minimise(
@@ -170,13 +187,14 @@ def minimise(
     residual, jacobian = objective.tangent(x) if tangent is None else tangent
     if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
         raise ConvergenceError("the model is not finite at the start")
-    here = _Point(x, float(residual @ residual) + prior.penalty(x), residual, jacobian)
+    here = _Point(x, float(residual @ residual) + prior.penalty(x), (residual, jacobian))
     first, floor, steps = damping, min(damping, LEAST_DAMPING), 0
-    while steps < most_steps:
-        least = max(settled, tolerance**2 * float(here.residual @ here.residual) / max(len(residual) - len(x), 1))
-        gradient = here.jacobian.T @ here.residual + prior.precision * (here.x - prior.centre)
+    while steps < most_steps and here.tangent is not None:
+        residual, jacobian = here.tangent
+        least = max(settled, tolerance**2 * float(residual @ residual) / max(len(residual) - len(x), 1))
+        gradient = jacobian.T @ residual + prior.precision * (here.x - prior.centre)
         free = movable & ~bounds.pushed_out(here.x, gradient)
-        normal = here.jacobian[:, free].T @ here.jacobian[:, free] + np.diag(prior.precision[free])
+        normal = jacobian[:, free].T @ jacobian[:, free] + np.diag(prior.precision[free])
         moved, promise, mildest = None, np.inf, damping
         while free.any() and damping < MOST_DAMPING:
             step = np.zeros(len(x))
@@ -188,7 +206,8 @@ def minimise(
                     break
                 damping = mildest = first  # damped, a step says little of what is left to gain
                 continue
-            moved = _moved(objective, bounds.clip(here.x + step), prior, here.cost)
+            goes_on = steps + 1 < most_steps
+            moved = _moved(objective, bounds.clip(here.x + step), prior, here.cost, goes_on)
             if moved is not None:
                 break
             damping = max(5.0 * damping, FIRST_DAMPING)
@@ -200,28 +219,30 @@ def minimise(
         here = moved
         if gained < least and used <= first:
             break
-    return Minimum(here.x, here.cost, here.residual, here.jacobian, steps)
+    return Minimum(here.x, here.cost, steps, objective, here.tangent)
 
 
 class _Point(NamedTuple):
     x: FloatArray
     cost: float
-    residual: FloatArray
-    jacobian: FloatArray
+    tangent: tuple[FloatArray, FloatArray] | None
 
 
-def _moved(objective: Objective, x: FloatArray, prior: NormalPrior, cost: float) -> _Point | None:
-    """The problem at x; None where the objective is not below `cost`, or it, or its derivative, cannot be had."""
+def _moved(objective: Objective, x: FloatArray, prior: NormalPrior, cost: float, goes_on: bool) -> _Point | None:
+    """The problem at x, with its tangent where the search goes on.
+
+    None where the objective is not below `cost`, or it, or the derivative that is needed, cannot be had.
+    """
     try:
         residual = objective.residual(x)
         with np.errstate(over="ignore"):  # a step that went too far
             lower = float(residual @ residual) + prior.penalty(x)
         if not lower < cost:
             return None
-        residual, jacobian = objective.tangent(x)
+        tangent = objective.tangent(x) if goes_on else None
     except UNSOLVABLE:
         return None
-    return _Point(x, lower, residual, jacobian) if np.isfinite(jacobian).all() else None
+    return None if tangent is not None and not np.isfinite(tangent[1]).all() else _Point(x, lower, tangent)
 
 
 def _solved(normal: FloatArray, gradient: FloatArray, damping: float) -> FloatArray:

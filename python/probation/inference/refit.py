@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from probation.inference.least_squares import FIRST_DAMPING, Bounds, NormalPrior, minimise
+from probation.inference.least_squares import FIRST_DAMPING, Bounds, Minimum, NormalPrior, minimise
 from probation.noise.span import span_of
 from probation.settings.search import SEARCH
 
@@ -28,7 +28,6 @@ class Ended(NamedTuple):
     parameters: FloatArray
     residual: FloatArray
     jacobian: FloatArray
-    steps: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +43,6 @@ class Refit:
     jacobian : ndarray, shape (N, p)
         Whitened, along the search coordinates (see `Coordinates`).
     coordinates : Coordinates
-    steps : int
-        Gauss-Newton steps that were taken.
     """
 
     problem: Problem
@@ -53,18 +50,17 @@ class Refit:
     residual: FloatArray
     jacobian: FloatArray
     coordinates: Coordinates
-    steps: int
 
     @classmethod
     def of(cls, problem: Problem, ended: Ended) -> Refit:
         """A problem, and where its refit ended."""
         coordinates = Coordinates.of_model(problem.model)
-        return cls(problem, ended.parameters, ended.residual, ended.jacobian, coordinates, ended.steps)
+        return cls(problem, *ended, coordinates)
 
     @property
     def ended(self) -> Ended:
         """Its data."""
-        return Ended(self.parameters, self.residual, self.jacobian, self.steps)
+        return Ended(self.parameters, self.residual, self.jacobian)
 
     @property
     def model(self) -> CampaignModel:
@@ -150,6 +146,13 @@ class Coordinates:
         return np.asarray(np.where(self.log, parameters, self.size))
 
 
+class Reached(NamedTuple):
+    """Where a refit came to, without its derivatives there: parameters (p,), and the steps that were taken."""
+
+    parameters: FloatArray
+    steps: int
+
+
 def refit(
     problem: Problem,
     start: FloatArray | Refit,
@@ -177,12 +180,29 @@ def refit(
     ConvergenceError
         If the law cannot be solved at the start.
     """
+    coordinates, minimum = _minimum(problem, start, most_steps, settled, held)
+    return Refit(problem, coordinates.parameters(minimum.x), minimum.residual, minimum.jacobian, coordinates)
+
+
+def reached(problem: Problem, start: FloatArray | Refit, *, most_steps: int = MOST_STEPS) -> Reached:
+    """The same where only the parameters matter: the last of the steps takes no derivatives."""
+    coordinates, minimum = _minimum(problem, start, most_steps, SEARCH.settled, None)
+    return Reached(coordinates.parameters(minimum.x), minimum.steps)
+
+
+def _minimum(
+    problem: Problem,
+    start: FloatArray | Refit,
+    most_steps: int,
+    settled: float,
+    held: NDArray[np.bool_] | None,
+) -> tuple[Coordinates, Minimum]:
     coordinates = Coordinates.of_model(problem.model)
     objective = SearchResidual(problem, coordinates)
     first = start.parameters if isinstance(start, Refit) else np.asarray(start, dtype=np.float64)
     first = np.clip(first, *coordinates.ends)
     tangent = _known_tangent(problem, start)
-    minimum = minimise(
+    return coordinates, minimise(
         objective,
         coordinates.of(first),
         tangent=objective.tangent_at(first) if tangent is None else tangent,
@@ -193,8 +213,6 @@ def refit(
         damping=FIRST_DAMPING,
         most_steps=most_steps,
     )
-    parameters = coordinates.parameters(minimum.x)
-    return Refit(problem, parameters, minimum.residual, minimum.jacobian, coordinates, minimum.steps)
 
 
 def _known_tangent(problem: Problem, start: FloatArray | Refit) -> tuple[FloatArray, FloatArray] | None:
