@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import comb, log
 from typing import TYPE_CHECKING
 
@@ -59,7 +60,7 @@ class Hypothesis:
         """Names of the effects, sorted, each once."""
         return tuple(sorted({cause.effect.name for cause in self.causes}))
 
-    @property
+    @cached_property
     def log_share(self) -> float:
         """Log prior share of its forms and places among those that its effects may have.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -324,7 +324,7 @@ class RecordView:
 
     def quietened(self, stress: FloatArray) -> RecordView:
         """The same record, effects that hand its force back to the strain taking this true stress, shape (n,) [MPa]."""
-        return replace(self, quiet_stress=stress, same_data=self.same_data or self)
+        return self._with(quiet_stress=stress, same_data=self.same_data or self)
 
     def driven(self, true_strain: FloatArray) -> RecordView:
         """The same record with another strain driving the law; given rates follow by the scheme's difference."""
@@ -335,7 +335,16 @@ class RecordView:
             moved = _core.History(self.time, true_strain - self.true_strain, np.empty(0), list(self.jumps))
             begin, end = moved.rates(how)
             rate = rate + np.append(begin[:1], end)
-        return replace(self, true_strain=true_strain, strain_rate=rate, same_data=self.same_data or self)
+        return self._with(true_strain=true_strain, strain_rate=rate, same_data=self.same_data or self)
+
+    def _with(self, **changed: object) -> RecordView:
+        """The same with other values: `replace` in a tenth of its time, which a search would spend on little else."""
+        known, other = self.__dict__, object.__new__(RecordView)
+        other.__dict__.update({name: known[name] for name in _FIELDS} | changed)
+        return other
+
+
+_FIELDS = tuple(each.name for each in fields(RecordView))
 
 
 def view_of(

@@ -299,16 +299,17 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
         ]
 
     residuals = residuals_of(model, raw, jacobian)
-    fit, noises, residuals = _settled(model, parameters, residuals)
+    fit, noises, residuals = _settled(model, parameters, residuals, fitted_noises(residuals))
     alike = Whitened.of(residuals, noises)
     columns = [] if specimens.alike else deviation_columns(model, fit.parameters)
     scatter = scatter_of(specimens, law, residuals, noises, columns)
     if scatter.any:
         plain, scattered = fit, with_scatter(residuals, columns, scatter)
-        fit, noises, residuals = _settled(model, plain.parameters, scattered)
+        begun = fitted_noises(scattered)
+        fit, noises, residuals = _settled(model, plain.parameters, scattered, begun)
         held = specimens_hold_the_gap(model, alike.noises, plain.parameters, fit.parameters)
         if held and _moved_far(plain, fit, scattered, scatter):
-            noises = fitted_noises(scattered)
+            noises = begun
             fit = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
             residuals = residuals_at(scattered, fit)
     parameters = fit.parameters
@@ -377,11 +378,17 @@ def _white_specimens(noises: Sequence[NoiseModel], whitener: Whitener) -> list[F
 
 
 def _settled(
-    model: CampaignModel, parameters: FloatArray, residuals: Sequence[RecordResidual]
+    model: CampaignModel,
+    parameters: FloatArray,
+    residuals: Sequence[RecordResidual],
+    noises: tuple[NoiseModel, ...],
 ) -> tuple[Refit, tuple[NoiseModel, ...], list[RecordResidual]]:
-    """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there."""
-    for _ in range(MOST_TURNS):
-        noises = fitted_noises(residuals)
+    """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there.
+
+    They begin with parameters, and the residuals and their noise there.
+    """
+    for turn in range(MOST_TURNS):
+        noises = fitted_noises(residuals) if turn else noises
         fit = refit(Problem(model, Whitener(noises)), parameters, most_steps=MOST_REFIT_STEPS)
         moved = np.abs(fit.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = fit.parameters

@@ -50,8 +50,9 @@ ROUGHEST, FINEST = 0.3, 1e-3
 PATIENCE = 3
 """Steps in which half of what was left must go; more than a force that is found takes for it."""
 
-HOPELESS = 1e6
-"""What is left, of the largest force, beyond which no further step leads back."""
+HOPELESS = 400.0
+"""What is left, of the largest force, beyond which no further step leads back: of 4500 forces that were found none was
+ever missed by more than 334, of 270 that were not found two thirds were."""
 
 PROBE = 1e-5
 """Change of the force over which the tangent is differenced, of the largest force."""
