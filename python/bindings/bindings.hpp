@@ -57,3 +57,4 @@ void bind_ramp(py::module_& m);
 void bind_slider(py::module_& m);
 void bind_solver(py::module_& m);
 void bind_spectrum(py::module_& m);
+void bind_whitening(py::module_& m);

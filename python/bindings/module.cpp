@@ -10,6 +10,7 @@ PYBIND11_MODULE(_core, m) {
   bind_elastic_frame(m);
   bind_slider(m);
   bind_spectrum(m);
+  bind_whitening(m);
   bind_companion(m);
   bind_feedback(m);
   bind_history(m);

@@ -52,7 +52,7 @@ Priors of effects stand in their catalogue, each with its reason; the example of
 
 NUMERICAL = {
     "effects/instants.py": {"_EVEN"},
-    "noise/arma.py": {"LEAST_WEIGHT", "START_UP", "_EDGES", "GRID", "REFINED"},
+    "noise/arma.py": {"START_UP", "SETTLED", "_EDGES", "GRID", "REFINED"},
     "noise/drift.py": {"SIZES", "BIASES"},
     "noise/joint_noise.py": {"LEAST_SEEN"},
     "noise/local_noise.py": {"MEMORY"},

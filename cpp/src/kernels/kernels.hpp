@@ -6,6 +6,7 @@
 
 #include "kernels/form_steps.hpp"
 #include "kernels/samples.hpp"
+#include "kernels/whitening.hpp"
 #include "probation/schemes/step_rule.hpp"
 
 namespace probation::kernels {
@@ -137,6 +138,7 @@ struct Kernels {
   void (*move)(const Modes&, const StepChange&, const StepDirection&, const double* rows);
   StepPasses form;
   SamplePasses samples;
+  Whiten whiten;
 };
 
 /// The best build for this processor, or the one that PROBATION_KERNELS in the environment names.

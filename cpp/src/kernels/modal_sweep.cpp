@@ -63,6 +63,7 @@ const Kernels table{PROBATION_TEXT(PROBATION_ISA),
                     drift,
                     move,
                     {form_two_step, form_straight, form_parabolic},
-                    {haward_thackray, inspect_steps, secant_changes, all_finite}};
+                    {haward_thackray, inspect_steps, secant_changes, all_finite},
+                    whiten};
 
 }  // namespace probation::kernels::PROBATION_ISA

@@ -37,4 +37,7 @@ StepTraits inspect_steps(const double* time, std::int64_t count, double allowed_
 bool secant_changes(const double* time, const double* values, std::int64_t count, double least);
 bool all_finite(const double* values, std::int64_t count);
 
+/// See Whiten.
+void whiten(const ColouredNoise&, double* values, std::int64_t columns, double* along);
+
 }  // namespace probation::kernels::PROBATION_ISA

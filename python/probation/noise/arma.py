@@ -11,16 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation import _core
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
 
-LEAST_WEIGHT = 1e-18
-"""Weight of earlier innovations below which they do not count."""
-
-START_UP = 150
-"""Most steps of the exact start; the innovation variance settles like theta^2t."""
+START_UP, SETTLED = 150, 1e-7
+"""Most steps of the exact start, and how near to one the variance of an innovation has settled; like theta^2t."""
 
 
 _EDGES = np.geomspace(NOISE.lowest_frequency, np.pi * (1.0 + 1e-9), NOISE.spectrum_bins + 1)
@@ -73,22 +71,15 @@ class Arma:
     def whiten(self, matrix: FloatArray) -> FloatArray:
         """Unit-variance innovations of the columns of `matrix`, exact from the first sample (Brockwell & Davis)."""
         values = np.asarray(matrix, dtype=np.float64)
-        if self.phi == 0.0 and self.theta == 0.0:
-            return values / self.innovation
-        moved = values / self.innovation
-        moved[1:] -= self.phi * moved[:-1]
-        if self.theta == 0.0:
-            moved[0] *= np.sqrt(1.0 - self.phi**2)
-            return moved
-        inverse, deviation = _start_up(self.phi, self.theta, min(len(moved), START_UP))
-        done = len(inverse)
-        first = inverse @ moved[:done]
-        rest = moved[done:]
-        if len(rest):
-            rest[0] -= self.theta * first[-1]
-            _invert_moving_average(rest, self.theta)
-        moved[:done] = (first.T / deviation).T
-        return moved
+        count = len(values)
+        none = np.zeros((count, 0)), np.zeros(0)
+        engine = _core.Whitening(np.full(count, self.innovation), self.phi, self.theta, self.first_variances, *none)
+        return engine.of(values.reshape(count, -1)).reshape(values.shape)
+
+    @property
+    def first_variances(self) -> FloatArray:
+        """Of the first innovations given those before them, over that of e, until they settle; shape (k,)."""
+        return _first_variances(self.phi, self.theta)
 
     def log_determinant(self, count: int) -> float:
         """Logarithm of the determinant of the covariance of so many samples."""
@@ -115,29 +106,11 @@ class Arma:
 
 
 @lru_cache(maxsize=256)
-def _start_up(phi: float, theta: float, most: int) -> tuple[FloatArray, FloatArray]:
-    """Innovations of the first samples from x_t - phi x_{t-1}, shape (k, k), and their standard deviations (k,).
-
-    As many samples as the variance of an innovation takes to settle.
-    """
+def _first_variances(phi: float, theta: float) -> FloatArray:
     variance = [(1.0 + 2.0 * phi * theta + theta**2) / (1.0 - phi**2)]
-    while len(variance) < most and abs(variance[-1] - 1.0) > 1e-7:
+    while len(variance) < START_UP and abs(variance[-1] - 1.0) > SETTLED:
         variance.append(1.0 + theta**2 - theta**2 / variance[-1])
-    inverse = np.eye(len(variance))
-    for at in range(1, len(variance)):
-        inverse[at] -= theta / variance[at - 1] * inverse[at - 1]
-    return inverse, np.sqrt(variance)
-
-
-def _invert_moving_average(values: FloatArray, theta: float) -> None:
-    """Solve e_t + theta e_{t-1} = values_t in place, along the first axis.
-
-    By 1 / (1 + theta L) = (1 - theta L) (1 + theta^2 L^2) (1 + theta^4 L^4) ..., L the shift by one sample.
-    """
-    factor, shift = -theta, 1
-    while shift < len(values) and abs(factor) > LEAST_WEIGHT:
-        values[shift:] += factor * values[:-shift]
-        factor, shift = factor**2, 2 * shift
+    return np.array(variance)
 
 
 @dataclass(frozen=True, eq=False)

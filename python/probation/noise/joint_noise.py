@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
@@ -35,31 +35,28 @@ def jointly_whitened(more: FloatArray, values: FloatArray) -> FloatArray:
     return np.asarray(values - directions @ (along * (shrink if values.ndim == 1 else shrink[:, None])))
 
 
-class Root(Protocol):
-    """W with W^T W = (I + U U^T)^-1."""
-
-    log_determinant: float
-
-    def whiten(self, values: FloatArray) -> FloatArray:
-        """W times columns (n,) or (n, m)."""
-
-    def whiten_transposed(self, values: FloatArray) -> FloatArray:
-        """W^T times the same."""
+def joint_root(more: FloatArray) -> FewRoot | FullRoot:
+    """W with W^T W = (I + U U^T)^-1, for noise U (n, k) on top of white noise: by few directions, or Cholesky's."""
+    return FewRoot(more) if 3 * more.shape[1] < len(more) else FullRoot(more)
 
 
-def joint_root(more: FloatArray) -> Root:
-    """For noise U (n, k) added to white noise: by its few directions, else by Cholesky's factor."""
-    return _Few(more) if 3 * more.shape[1] < len(more) else _Full(more)
+class FewRoot:
+    """Symmetric: I - Q diag(shrink) Q^T.
 
-
-class _Few:
-    """Symmetric: I - Q diag(shrink) Q^T."""
+    Attributes
+    ----------
+    directions : ndarray, shape (n, k)
+    shrink : ndarray, shape (k,)
+    log_determinant : float
+        Of I + U U^T.
+    """
 
     def __init__(self, more: FloatArray) -> None:
         self.directions, self.shrink = joint_directions(more)
         self.log_determinant = -2.0 * float(np.log1p(-self.shrink).sum())
 
     def whiten(self, values: FloatArray) -> FloatArray:
+        """W times columns (n,) or (n, m)."""
         if not self.shrink.size:
             return values
         along = self.directions.T @ values
@@ -70,7 +67,7 @@ class _Few:
     whiten_transposed = whiten
 
 
-class _Full:
+class FullRoot:
     """Lower triangular, so that samples keep their order: U has about as many columns as rows."""
 
     def __init__(self, more: FloatArray) -> None:
@@ -82,7 +79,9 @@ class _Full:
         self.log_determinant = 2.0 * float(np.log(np.diag(self.factor)).sum())
 
     def whiten(self, values: FloatArray) -> FloatArray:
+        """W times columns (n,) or (n, m)."""
         return np.asarray(solve_triangular(self.factor, values, lower=True, check_finite=False))
 
     def whiten_transposed(self, values: FloatArray) -> FloatArray:
+        """W^T times the same."""
         return np.asarray(solve_triangular(self.factor, values, lower=True, trans="T", check_finite=False))

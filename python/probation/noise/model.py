@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from probation import _core
 from probation.noise.arma import Arma
-from probation.noise.joint_noise import joint_root
+from probation.noise.joint_noise import FewRoot, FullRoot, joint_root
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.noise.joint_noise import Root
 
 Growth = Literal["constant", "force", "local"]
 
@@ -145,8 +145,8 @@ class NoiseModel:
     def whiten(self, matrix: FloatArray) -> FloatArray:
         """Columns of `matrix` (n,) or (n, m) in coordinates in which the noise is white with unit variance."""
         values = np.asarray(matrix, dtype=np.float64)
-        profile = self.profile if values.ndim == 1 else self.profile[:, None]
-        return self._root.whiten(self.arma.whiten(values / profile))
+        white = self._whitening.of(values.reshape(len(values), -1)).reshape(values.shape)
+        return self._root.whiten(white) if isinstance(self._root, FullRoot) else white
 
     @cached_property
     def log_determinant(self) -> float:
@@ -197,6 +197,15 @@ class NoiseModel:
         )
 
     @cached_property
-    def _root(self) -> Root:
+    def _root(self) -> FewRoot | FullRoot:
         """Of the whitened slow noise together with white noise."""
         return joint_root(self.arma.whiten(self._slow / self.profile[:, None]))
+
+    @cached_property
+    def _whitening(self) -> _core.Whitening:
+        """By the process and, where they are few, by the directions of the slow noise."""
+        root = self._root
+        none = np.zeros((len(self), 0)), np.zeros(0)
+        few = none if isinstance(root, FullRoot) else (root.directions, root.shrink)
+        arma = self.arma
+        return _core.Whitening(self.profile * arma.innovation, arma.phi, arma.theta, arma.first_variances, *few)
