@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from probation.diagnosis.budget import Budget
 from probation.effects.cause import Cause
 from probation.inference.base_fit import specimens_hold_the_gap
 from probation.inference.candidate import cause_key
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from probation._arrays import FloatArray
-    from probation.diagnosis.budget import Budget
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.candidate import Key
@@ -38,7 +38,7 @@ class _Begun(NamedTuple):
     keys: tuple[Key, ...]
     start: FloatArray | Ended
     steps: int
-    always: bool
+    budget: Budget
 
 
 class _Found(NamedTuple):
@@ -58,14 +58,11 @@ class Refitting:
     effects : sequence of Effect
         Of all causes.
     threads : int
-    budget : Budget
-        Once it is spent, nothing is refitted.
     """
 
-    def __init__(self, base: BaseFit, effects: Sequence[Effect], threads: int, budget: Budget) -> None:
+    def __init__(self, base: BaseFit, effects: Sequence[Effect], threads: int) -> None:
         self.base = base
         self._effects = {effect.name: effect for effect in effects}
-        self._budget = budget
         self._copies: Copies[_Begun | _Found, Ended | Evidence | str] = Copies(self._done, threads)
 
     def close(self) -> None:
@@ -76,6 +73,7 @@ class Refitting:
         self,
         jobs: Sequence[Job],
         steps: int,
+        budget: Budget,
         *,
         always_one: bool = False,
         progress: Callable[[float], None] | None = None,
@@ -86,13 +84,20 @@ class Refitting:
         ----------
         jobs : sequence of (CampaignModel, ndarray or Refit)
         steps : int
+        budget : Budget
+            Once it is spent, nothing is refitted.
         always_one : bool
-            Whether the first one is solved even where the budget is spent.
+            But the first one.
         progress : callable, optional
             Called with the part that is done.
         """
         begun = [
-            _Begun(_keys_of(model), start.ended if isinstance(start, Refit) else start, steps, always_one and not at)
+            _Begun(
+                _keys_of(model),
+                start.ended if isinstance(start, Refit) else start,
+                steps,
+                Budget() if always_one and at == 0 else budget,
+            )
             for at, (model, start) in enumerate(jobs)
         ]
         ended = self._copies.results(begun, progress)
@@ -117,8 +122,8 @@ class Refitting:
         try:
             if isinstance(task, _Found):
                 return self.evidence(Refit.of(problem, task.ended), unknown=task.unknown)
-            if self._budget.spent() and not task.always:
-                return self._budget.why
+            if task.budget.spent():
+                return task.budget.why
             start = Refit.of(problem, task.start) if isinstance(task.start, Ended) else task.start
             return self.refit(model, start, task.steps).ended
         except UNSOLVABLE as error:

@@ -69,7 +69,7 @@ class Search:
     _weighed: WeakKeyDictionary[Refit, Evidence | str] = field(default_factory=WeakKeyDictionary)
 
     def __post_init__(self) -> None:
-        self.refitting = Refitting(self.base, self.effects, self.threads, self.budget)
+        self.refitting = Refitting(self.base, self.effects, self.threads)
         self.found.append(Hypothesis(self.base.refit, self.refitting.evidence(self.base.refit, unknown=True)))
 
     def __enter__(self) -> Self:
@@ -521,7 +521,8 @@ class Search:
     def _solved_in_groups(self, groups: Sequence[Sequence[Job]], steps: int) -> list[list[Refit]]:
         """The same of several groups, all at once."""
         jobs = [job for group in groups for job in group]
-        refits = iter(self.refitting.refits(jobs, steps, always_one=len(self.found) == 1, progress=self._moved))
+        nothing_yet = len(self.found) == 1
+        refits = iter(self.refitting.refits(jobs, steps, self.budget, always_one=nothing_yet, progress=self._moved))
         solved: list[list[Refit]] = []
         for group in groups:
             solved.append([])
@@ -588,12 +589,13 @@ class Search:
             *self.ranked(2)[: SEARCH.fewer_with_unknown],
         ]
         untried = {id(known): known for known in ahead if not np.isfinite(known.evidence.log_evidence_unknown)}
-        refits = [hypothesis.refit for hypothesis in untried.values()]
-        weighed = {
-            number: Hypothesis(fit, known)
-            for number, fit, known in zip(untried, refits, self.refitting.evidences(refits, unknown=True), strict=True)
-            if not isinstance(known, str)
-        }
+        evidences = self.refitting.evidences([known.refit for known in untried.values()], unknown=True)
+        weighed: dict[int, Hypothesis] = {}
+        for (number, hypothesis), known in zip(untried.items(), evidences, strict=True):
+            if isinstance(known, str):
+                self.skipping.part(f"{' and '.join(hypothesis.effects)} jointly with an unknown effect", known)
+            else:
+                weighed[number] = Hypothesis(hypothesis.refit, known)
         self.found = [weighed.get(id(hypothesis), hypothesis) for hypothesis in self.found]
 
     def _begin(self, low: float, high: float) -> None:
