@@ -1,8 +1,8 @@
 """The same work on many things, several at once in copies of this process where that is asked for.
 
 Threads would not do: a solve of one record is too short, and two threads that take turns at Python between solves take
-longer than one. A copy (`fork`) knows all that this process knows. So it is handed nothing, and gives back what the
-work returns. It is made where processes can be copied, on Linux; elsewhere one thing comes after the other.
+longer than one. A copy (`fork`) knows all that this process knew when it was made; what it is handed later, and what it
+gives back, is data. It is made where processes can be copied, on Linux; elsewhere one thing comes after the other.
 
 A copy may wait for ever: for a lock that another thread of this process had when it was made, for instance. So what a
 copy does not hand back in good time is worked out here.
@@ -48,8 +48,8 @@ PATIENCE = 2.0
 item that it had itself."""
 
 WORTH_A_COPY = 0.08
-"""Seconds of work, by what an item of it took the last time, below which no copy is made: making, serving and ending
-one takes some 40 ms of a process that holds half a gigabyte."""
+"""Seconds of work, by what an item of it took the last time, for which a copy is made: making and ending one, and the
+pages that either writes again, take some 40 ms of a process that holds half a gigabyte."""
 
 _NUMBER = 4
 """Bytes of the number of an item."""

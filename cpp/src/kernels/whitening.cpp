@@ -33,7 +33,10 @@ PROBATION_INLINE void innovations(const ColouredNoise& noise, Load at, Store to)
   for (; i < noise.count; ++i) step(1.0);
 }
 
-constexpr int wide = column_block / lanes, vectors = direction_block / lanes;
+constexpr std::int64_t wide = column_block / lanes, vectors = direction_block / lanes;
+
+/// Where the entries of a vector begin.
+PROBATION_INLINE std::int64_t of_vector(std::int64_t index) { return index * lanes; }
 
 /// The same of one column, or of a block of them.
 void innovations_of_one(const ColouredNoise& noise, double* values) {
@@ -43,8 +46,8 @@ void innovations_of_one(const ColouredNoise& noise, double* values) {
 }
 void innovations_of_block(const ColouredNoise& noise, double* values, std::int64_t columns) {
   innovations<Vector, wide>(
-      noise, [=](std::int64_t i, int c) { return load(values + i * columns + c * lanes); },
-      [=](std::int64_t i, int c, Vector value) { store(values + i * columns + c * lanes, value); });
+      noise, [=](std::int64_t i, int c) { return load(values + i * columns + of_vector(c)); },
+      [=](std::int64_t i, int c, Vector value) { store(values + i * columns + of_vector(c), value); });
 }
 
 /// along = shrink basis^T values, of some columns and a block of directions.
@@ -55,7 +58,7 @@ PROBATION_INLINE void project(const ColouredNoise& noise, std::int64_t direction
   const double* basis = noise.basis + direction;
   for (std::int64_t i = 0; i < noise.count; ++i, basis += noise.directions, values += columns) {
     Vector part[vectors];
-    for (int v = 0; v < vectors; ++v) part[v] = load(basis + v * lanes);
+    for (int v = 0; v < vectors; ++v) part[v] = load(basis + of_vector(v));
     for (int c = 0; c < some; ++c) {
       const double value = values[c];
       for (int v = 0; v < vectors; ++v) sums[v][c] += part[v] * value;
@@ -66,7 +69,7 @@ PROBATION_INLINE void project(const ColouredNoise& noise, std::int64_t direction
       double sum[lanes];
       store(sum, sums[v][c]);
       for (int lane = 0; lane < lanes; ++lane) {
-        const std::int64_t at = direction + v * lanes + lane;
+        const std::int64_t at = direction + of_vector(v) + lane;
         along[at * columns + c] = noise.shrink[at] * sum[lane];
       }
     }
@@ -78,7 +81,8 @@ void subtract_one(const ColouredNoise& noise, double* values, const double* alon
   for (std::int64_t i = 0; i < noise.count; ++i, basis += noise.directions) {
     Vector sums[vectors] = {};
     for (std::int64_t q = 0; q < noise.directions; q += direction_block)
-      for (int v = 0; v < vectors; ++v) sums[v] += load(basis + q + v * lanes) * load(along + q + v * lanes);
+      for (int v = 0; v < vectors; ++v)
+        sums[v] += load(basis + q + of_vector(v)) * load(along + q + of_vector(v));
     for (int v = 1; v < vectors; ++v) sums[0] += sums[v];
     values[i] -= sum(sums[0]);
   }
@@ -91,13 +95,13 @@ PROBATION_INLINE void subtract(const ColouredNoise& noise, const double* basis, 
   Vector sums[rows][blocks * wide] = {};
   for (std::int64_t q = 0; q < noise.directions; ++q, along += columns) {
     Vector part[blocks * wide];
-    for (int b = 0; b < blocks * wide; ++b) part[b] = load(along + b * lanes);
+    for (int b = 0; b < blocks * wide; ++b) part[b] = load(along + of_vector(b));
     for (int r = 0; r < rows; ++r)
       for (int b = 0; b < blocks * wide; ++b) sums[r][b] += part[b] * basis[r * noise.directions + q];
   }
   for (int r = 0; r < rows; ++r)
     for (int b = 0; b < blocks * wide; ++b) {
-      double* const to = values + r * columns + b * lanes;
+      double* const to = values + r * columns + of_vector(b);
       store(to, load(to) - sums[r][b]);
     }
 }

@@ -19,7 +19,7 @@ struct ColouredNoise {
   const double* shrink;     ///< of each direction
 };
 
-constexpr int direction_block = 12, column_block = 4;
+constexpr std::int64_t direction_block = 12, column_block = 4;
 
 /// In place. Columns are one, or a multiple of `column_block`; values have the shape (count, columns),
 /// `along` has that of (directions, columns).
