@@ -2,7 +2,8 @@
 
 `python -m bench.null_alarms FOLDER…`: sealed folders with truths; nulls and replicates are asked, others passed over.
 About two seconds of CPU each. What is found is written to `gaps.jsonl` of each folder as it comes, with the commit
-that it comes from: a run that was ended goes on where it was. Intervals are exact, of 95 %.
+that it comes from: a run that was ended goes on where it was. Intervals are exact, of 95 %. Of several folders all
+together follow, by the noise of the strain.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ import json
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from bench.laboratories import rate
 from probation.effects.registry import effects
@@ -26,10 +29,14 @@ from probation_studies.blind.layout import Layout
 from probation_studies.blind.scores.answer import NO_ANSWER
 from probation_studies.blind.scores.board import false_alarms
 from probation_studies.blind.scores.case import Case
+from probation_studies.blind.scores.intervals import Rate
 from probation_studies.blind.seal import read_truth
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
+
+MOST = (2e-5, 2e-4, 5e-4)
+"""Noise of the strain, classes."""
 
 HEAD = ("laboratory", "commit", "seed", "specimens alike", "specimens differ", "strain noise to 5e-4")
 
@@ -82,6 +89,13 @@ def row(layout: Layout) -> str:
     return f"| {' | '.join(cells)} |"
 
 
+def by_strain_noise(nulls: Sequence[Case]) -> list[tuple[str, list[Case]]]:
+    """Classes of the noise of the recorded strain, and what is in them."""
+    at = np.searchsorted(MOST, [case.strain_noise for case in nulls])
+    names = [f"to {most:g}" for most in MOST] + [f"above {MOST[-1]:g}"]
+    return [(name, [case for case, own in zip(nulls, at, strict=True) if own == k]) for k, name in enumerate(names)]
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path, help="sealed folders of one laboratory each")
@@ -89,6 +103,10 @@ def main() -> None:
     print(f"| {' | '.join(HEAD)} |\n| {' | '.join(['---'] * len(HEAD))} |")
     for layout in layouts:
         print(row(layout), flush=True)
+    if len(layouts) > 1:
+        nulls = [case for layout in layouts for case, _ in asked(layout)]
+        for name, cases in [("all", nulls), *by_strain_noise(nulls)]:
+            print(f"strain noise {name}: {rate(Rate.of(case.answer.gap for case in cases).plain())}")
 
 
 if __name__ == "__main__":

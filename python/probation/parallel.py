@@ -25,6 +25,7 @@ from functools import wraps
 from multiprocessing import Pipe, parent_process
 from multiprocessing.connection import Connection, wait
 from queue import SimpleQueue
+from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Any, Generic, NoReturn, ParamSpec, Self, TypeVar
 
 from threadpoolctl import threadpool_limits
@@ -109,7 +110,7 @@ def in_parallel(
     def numbered(number: int) -> Result:
         return work(items[number])
 
-    with Copies(numbered, min(processes, len(items)), like=work) as copies:
+    with Copies(numbered, processes, like=work) as copies:
         return copies.results(range(len(items)), progress)
 
 
@@ -123,7 +124,8 @@ def both(first: Callable[[], Result], second: Callable[[], Other], processes: in
 class Copies(Generic[Item, Result]):
     """Copies of this process that work on what they are handed, one batch after the other, until they are closed.
 
-    They are made with the first batch that is worth it, and know what this process knew then.
+    They are made with the first batch that is worth it, and anew for one that needs more of them, and know what this
+    process knew then. One thread has them, and gives them one batch at a time.
 
     Parameters
     ----------
@@ -141,6 +143,7 @@ class Copies(Generic[Item, Result]):
     ) -> None:
         self._work = work
         self._count = processes - 1
+        self._maker = os.getpid()
         self._code = getattr(like or work, "__code__", None)
         self._team: _Team | None = None
 
@@ -153,7 +156,7 @@ class Copies(Generic[Item, Result]):
     def close(self) -> None:
         """End the copies; what comes afterwards is done by new ones."""
         team, self._team = self._team, None
-        if team is not None:
+        if team is not None and os.getpid() == self._maker:  # a fork of this process has none
             team.close()
 
     def results(self, items: Sequence[Item], progress: Callable[[float], None] | None = None) -> list[Result]:
@@ -176,7 +179,7 @@ class Copies(Generic[Item, Result]):
             while self._team is None and 0.0 < usual * batch.left < WORTH_A_COPY:
                 batch.here(batch.first_left())
                 usual = max(usual, batch.usual)
-            if batch.left > 1 and (team := self._made()) is not None:
+            if batch.left > 1 and (team := self._for(batch.left - 1)) is not None:
                 team.work_on(batch)
                 if team.late or not team.connections:
                     self.close()
@@ -192,13 +195,16 @@ class Copies(Generic[Item, Result]):
             _taken[self._code] = batch.usual
         return [batch.done[number] for number in range(len(items))]
 
-    def _made(self) -> _Team | None:
-        """The copies, where there can be any."""
-        alone = self._count < 1 or sys.platform != "linux" or _is_copy or parent_process() is not None
-        if self._team is None and not alone:
-            team = _Team()
-            team.begin(self._work, self._count)
-            self._team = team
+    def _for(self, wanted: int) -> _Team | None:
+        """So many copies, or as many as there may be, where there can be any."""
+        if self._count < 1 or sys.platform != "linux" or _is_copy or parent_process() is not None:
+            return None
+        count = min(self._count, wanted)
+        if self._team is not None and len(self._team.connections) < count:
+            self.close()
+        if self._team is None:
+            self._team = _Team()
+            self._team.begin(self._work, count)
         return self._team
 
 
@@ -285,7 +291,7 @@ class _Team:
         """Make as many copies as can be made."""
         with _interrupts_deferred(), suppress(OSError):  # no further process, or no further file
             self._files += os.pipe()
-            self._files.append(os.memfd_create("handed out"))
+            self._files.append(_file())
             for each in self._files[:2]:
                 os.set_blocking(each, False)
             for _ in range(count):
@@ -312,8 +318,10 @@ class _Team:
 
     def work_on(self, batch: _Batch[Any, Any]) -> None:
         """Work on what is left of a batch, here and in the copies, until it is done or no copy is left."""
-        if self.connections:
-            self._hand_out(batch)
+        mine = batch.first_left()
+        if not self.connections or not self._hand_out(batch, mine + 1):
+            return
+        batch.here(mine)
         while (number := self._next()) is not None:
             batch.here(number)
             while self._receive(batch, 0.0):
@@ -324,30 +332,38 @@ class _Team:
             elif not self._receive(batch, max(PATIENCE, 3.0 * batch.longest)):
                 batch.here(batch.first_left())
                 self.late = True
+        os.ftruncate(self._files[-1], 0)
 
-    def _hand_out(self, batch: _Batch[Any, Any]) -> None:
-        """Write the items where all can read them, and tickets for them."""
-        _, _, file = self._files
-        os.ftruncate(file, 0)
-        offset = 0
-        for number in range(batch.first_left(), len(batch.items)):  # what is done already was done in this order
-            written = pickle.dumps(batch.items[number], pickle.HIGHEST_PROTOCOL)
-            os.pwrite(file, written, offset)
-            self._waiting.append(_TICKET.pack(number, offset, len(written)))
-            offset += len(written)
+    def _hand_out(self, batch: _Batch[Any, Any], first: int) -> bool:
+        """Write the items where all can read them, from the first on, and begin with tickets for them; if possible."""
+        tickets, offset = [], 0
+        try:
+            for number in range(first, len(batch.items)):
+                written = pickle.dumps(batch.items[number], pickle.HIGHEST_PROTOCOL)
+                os.pwrite(self._files[-1], written, offset)
+                tickets.append(_TICKET.pack(number, offset, len(written)))
+                offset += len(written)
+        except Exception:  # no room, or no data: all is worked out here
+            return False
+        self._waiting.extend(tickets)
+        self._give()
+        return True
+
+    def _give(self) -> None:
+        """As many tickets as the pipe takes."""
+        with suppress(BlockingIOError):
+            while self._waiting:
+                os.write(self._files[1], self._waiting[0])
+                self._waiting.popleft()
 
     def _next(self) -> int | None:
         """The number of the next item for this process; None when all are taken, or no copy is left."""
         if not self.connections:
             return None
-        reading, writing, _ = self._files
         while True:
-            with suppress(BlockingIOError):
-                while self._waiting:
-                    os.write(writing, self._waiting[0])
-                    self._waiting.popleft()
+            self._give()
             try:
-                number, _, _ = _TICKET.unpack(os.read(reading, _TICKET.size))
+                number, _, _ = _TICKET.unpack(os.read(self._files[0], _TICKET.size))
             except BlockingIOError:
                 if self._waiting:
                     continue  # the copies have emptied the pipe meanwhile
@@ -383,6 +399,7 @@ class _Team:
             signal.set_wakeup_fd(-1)
             signal.signal(signal.SIGTERM, signal.SIG_DFL)
             reading, writing, file = self._files
+            first = os.getppid()
             os.close(writing)
             for each in self.connections:  # so that writing fails when the first process is gone
                 each.close()
@@ -390,7 +407,7 @@ class _Team:
             sys.stdout, sys.stderr = (open(number, "w", 1, closefd=False) for number in (1, 2))  # noqa: SIM115
             gc.freeze()  # a collection would write to all objects that the processes share, and so copy them
             with _Sender(results) as sender:
-                while sender.connected and (ticket := _awaited(reading)):
+                while sender.connected and (ticket := _awaited(reading, first)):
                     number, offset, size = _TICKET.unpack(ticket)
                     try:
                         result = _fresh(work, pickle.loads(os.pread(file, size, offset)))
@@ -408,12 +425,21 @@ def _fork() -> int:
         return os.fork()
 
 
-def _awaited(tickets: int) -> bytes:
-    """The next ticket, once there is one; none when nobody is left who would hand one out."""
-    while True:
-        wait([tickets])
-        with suppress(BlockingIOError):  # another copy took it
+def _awaited(tickets: int, first: int) -> bytes:
+    """The next ticket, once there is one; none when the first process is gone, or has closed the pipe."""
+    while os.getppid() == first:
+        wait([tickets], PATIENCE)
+        with suppress(BlockingIOError):  # none yet, or another copy took it
             return os.read(tickets, _TICKET.size)
+    return b""
+
+
+def _file() -> int:
+    """A file in memory, which has no name."""
+    if hasattr(os, "memfd_create"):  # not where Python was built for old systems
+        return os.memfd_create("handed out")
+    with TemporaryFile() as file:
+        return os.dup(file.fileno())
 
 
 class _Sender:

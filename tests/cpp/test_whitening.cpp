@@ -66,6 +66,17 @@ TEST_CASE("columns of the process are white, however many samples and columns th
   }
 }
 
+TEST_CASE("where the start has not settled after so many samples, the rest goes on as if it had") {
+  // The variance is cut off after three samples; behind them e_t = n_t - phi n_{t-1} - theta e_{t-1}.
+  const double theta_slow = 0.97;
+  const ArrayXd values = ArrayXd::LinSpaced(200, -1.0, 2.0), one = ArrayXd::Ones(200);
+  const ArrayXd variance = (ArrayXd(3) << 1.9, 1.4, 1.3).finished();
+  const Whitening whitening(one, 0.0, theta_slow, variance, directions(200, 0), ArrayXd(0));
+  const ArrayXd white = whitening.of(Whitening::Columns(values)).col(0);
+  CHECK(white[3] == doctest::Approx(values[3] - theta_slow * white[2] * std::sqrt(variance[2])));
+  for (int i = 4; i < 200; ++i) CHECK(white[i] == doctest::Approx(values[i] - theta_slow * white[i - 1]));
+}
+
 TEST_CASE("directions with more noise shrink, and nothing else does, in every build") {
   const Eigen::Index count = 43;
   const probation::kernels::Kernels* const* builds = probation::kernels::runnable();

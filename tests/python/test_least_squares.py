@@ -174,3 +174,16 @@ def test_a_direction_that_the_data_do_not_determine_does_no_harm():
     """x + y is known, x - y is not: the shortest step, from where it began."""
     objective = Objective(lambda x: np.array([x[0] + x[1] - 4.0]), lambda x: np.ones((1, 2)))
     assert_allclose(minimise(objective, np.array([1.0, 0.0])).x, [2.5, 1.5], rtol=1e-9)
+
+
+def test_the_last_step_ends_where_there_is_a_derivative_unless_none_is_asked_for():
+    def slopes(x):
+        if x[0] > 2.0:
+            raise ArithmeticError
+        return np.ones((1, 1))
+
+    objective = Objective(lambda x: x - 3.0, slopes)
+    found = minimise(objective, np.array([0.0]), most_steps=1)
+    assert 0.0 < found.x[0] <= 2.0
+    assert found.jacobian.tolist() == [[1.0]]
+    assert minimise(objective, np.array([0.0]), most_steps=1, tangent_at_end=False).x.tolist() == [3.0]

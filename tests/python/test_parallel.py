@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import probation
+from probation import parallel
 from probation.errors import InputError
 from probation.parallel import Copies, at_once, both, in_parallel
 
@@ -212,10 +213,10 @@ def test_a_result_that_cannot_be_read_is_worked_out_here():
 
 
 def test_no_descriptor_is_left_open():
-    before = len(list(Path("/proc/self/fd").iterdir()))
+    before = descriptors()
     for _ in range(50):
         in_parallel(lambda item: item, range(3), 3)
-    assert len(list(Path("/proc/self/fd").iterdir())) == before
+    assert descriptors() == before
     assert no_copies_left()
 
 
@@ -259,6 +260,40 @@ def test_an_item_that_fails_in_a_copy_alone_is_worked_out_here_at_once():
         started = time.monotonic()
         assert copies.results(range(10)) == copies.results(range(10)) == list(range(10))
         assert time.monotonic() - started < 1.5
+
+
+def descriptors():
+    return len(list(Path("/proc/self/fd").iterdir()))
+
+
+def test_where_python_knows_no_files_in_memory_copies_work_too(monkeypatch):
+    monkeypatch.delattr(os, "memfd_create")
+    before = descriptors()
+    with Copies(slowly, 2) as copies:
+        assert len({process for _, process in copies.results(range(8))}) == 2
+    assert descriptors() == before
+
+
+def test_items_that_are_no_data_are_worked_out_here():
+    with Copies(lambda item: (item(), time.sleep(0.02), os.getpid())[2], 2) as copies:
+        assert set(copies.results([lambda: None] * 6)) == {os.getpid()}
+
+
+def test_an_interrupt_while_copies_are_made_leaves_none(monkeypatch):
+    known, made, before = parallel._fork, [], descriptors()
+
+    def fork():
+        if made:
+            raise KeyboardInterrupt
+        made.append(known())
+        return made[-1]
+
+    monkeypatch.setattr(parallel, "_fork", fork)
+    with pytest.raises(KeyboardInterrupt):
+        in_parallel(slowly, range(20), 3)
+    assert made
+    assert no_copies_left()
+    assert descriptors() == before
 
 
 def test_copies_end_with_the_first_process():

@@ -30,6 +30,7 @@ PROBATION_INLINE void innovations(const ColouredNoise& noise, Load at, Store to)
     step(1.0 / std::sqrt(noise.variance[i]));
     kept = noise.theta / noise.variance[i];
   }
+  kept = noise.theta;
   for (; i < noise.count; ++i) step(1.0);
 }
 

@@ -143,6 +143,14 @@ class Refitting:
         """
         if not self.base.scatter.any:
             return refit(self.base.problem.with_model(model), start, most_steps=steps)
+        try:
+            return self._refit(model, start, steps)
+        except UNSOLVABLE:  # perhaps where it went on without derivatives; then it takes twice the time
+            return self._refit(model, start, steps, differentiable=True)
+
+    def _refit(
+        self, model: CampaignModel, start: FloatArray | Refit, steps: int, *, differentiable: bool = False
+    ) -> Refit:
         model = RememberingModel(model)
         problem, noises = self.base.problem.with_model(model), self.base.alike.noises
         if isinstance(start, Refit):
@@ -156,8 +164,9 @@ class Refitting:
             fit = refit(problem, start, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, first, fit.parameters):
                 return fit
-        alike = reached(problem.with_noises(noises), first, most_steps=steps).parameters
-        begun = reached(problem, alike, most_steps=min(steps, SEARCH.steps_apart))
+        way = {"differentiable": differentiable}
+        alike = reached(problem.with_noises(noises), first, most_steps=steps, **way).parameters
+        begun = reached(problem, alike, most_steps=min(steps, SEARCH.steps_apart), **way)
         if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
             if begun.steps < SEARCH.steps_apart:
                 return refit(problem, begun.parameters, most_steps=0)

@@ -137,8 +137,12 @@ class Search:
         leading = self._near_the_best_of_as_many(hopeless)
         steps = SEARCH.first_steps if self.budget.spent() else MOST_STEPS
         begun = [(hypothesis.refit.model, hypothesis.refit.parameters) for hypothesis in leading]
-        again.found += again._judged(again._solved(begun, steps))
-        again._try_with_unknown()
+        try:
+            again.found += again._judged(again._solved(begun, steps))
+            again._try_with_unknown()
+        except BaseException:
+            again.refitting.close()
+            raise
         return again
 
     def _near_the_best_of_as_many(self, hopeless: float) -> list[Hypothesis]:

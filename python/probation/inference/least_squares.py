@@ -109,7 +109,7 @@ class Minimum:
         That were taken.
     objective : Objective
     known : (ndarray, ndarray) or None
-        Its tangent here; None where the last step that was allowed ended, as long as nobody asks.
+        Its tangent here; None where it was not asked for.
     """
 
     x: FloatArray
@@ -147,6 +147,7 @@ def minimise(
     damping: float = 0.0,
     longest_step: float = np.inf,
     most_steps: int = 100,
+    tangent_at_end: bool = True,
 ) -> Minimum:
     """Minimise r(x)^T r(x) + prior from a start.
 
@@ -174,6 +175,9 @@ def minimise(
         Largest change of a coordinate in one step.
     most_steps : int
         The search ends there, wherever it is.
+    tangent_at_end : bool
+        Whether the last of these steps ends where the objective has a derivative. That costs more than the step; where
+        only the place matters, it may be left out.
 
     Raises
     ------
@@ -206,7 +210,7 @@ def minimise(
                     break
                 damping = mildest = first  # damped, a step says little of what is left to gain
                 continue
-            goes_on = steps + 1 < most_steps
+            goes_on = tangent_at_end or steps + 1 < most_steps
             moved = _moved(objective, bounds.clip(here.x + step), prior, here.cost, goes_on)
             if moved is not None:
                 break

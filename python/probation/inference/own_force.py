@@ -50,6 +50,18 @@ ROUGHEST, FINEST = 0.3, 1e-3
 PATIENCE = 3
 """Steps in which half of what was left must go; more than a force that is found takes for it."""
 
+HOPELESS = 30.0
+"""About what the force would change by to follow what is left, of the largest force, beyond which no further step leads
+back: of 1500 forces that were found it was never above 10, of 186 that were not found it was above 180 for seven of
+ten."""
+
+ROUGHEST, FINEST = 0.3, 1e-3
+"""What a step that others follow may leave of what it is to remove: the first, and any of them (Eisenstat & Walker
+1996, choice 2)."""
+
+PATIENCE = 3
+"""Steps in which half of what was left must go; more than a force that is found takes for it."""
+
 HOPELESS = 400.0
 """What is left, of the largest force, beyond which no further step leads back: of 4500 forces that were found none was
 ever missed by more than 334, of 270 that were not found two thirds were."""
@@ -95,7 +107,7 @@ class OwnForce:
             if np.max(np.abs(left)) <= settled * self._size:
                 return
             stuck = len(norms) > PATIENCE and norms[-1] > 0.5 * norms[-1 - PATIENCE]
-            if stuck or not np.max(np.abs(left)) < HOPELESS * self._size:
+            if stuck or not np.max(np.abs(self._about(left))) < HOPELESS * self._size:
                 break
             step = self.answer(left, part_left)
             # Where the law has a kink a whole step may overshoot.

@@ -184,9 +184,11 @@ def refit(
     return Refit(problem, coordinates.parameters(minimum.x), minimum.residual, minimum.jacobian, coordinates)
 
 
-def reached(problem: Problem, start: FloatArray | Refit, *, most_steps: int = MOST_STEPS) -> Reached:
-    """The same where only the parameters matter: the last of the steps takes no derivatives."""
-    coordinates, minimum = _minimum(problem, start, most_steps, SEARCH.settled, None)
+def reached(
+    problem: Problem, start: FloatArray | Refit, *, most_steps: int = MOST_STEPS, differentiable: bool = False
+) -> Reached:
+    """The same where only the parameters matter: the last step takes no derivatives, unless it is to end at some."""
+    coordinates, minimum = _minimum(problem, start, most_steps, SEARCH.settled, None, differentiable)
     return Reached(coordinates.parameters(minimum.x), minimum.steps)
 
 
@@ -196,6 +198,7 @@ def _minimum(
     most_steps: int,
     settled: float,
     held: NDArray[np.bool_] | None,
+    tangent_at_end: bool = True,
 ) -> tuple[Coordinates, Minimum]:
     coordinates = Coordinates.of_model(problem.model)
     objective = SearchResidual(problem, coordinates)
@@ -212,6 +215,7 @@ def _minimum(
         settled=settled,
         damping=FIRST_DAMPING,
         most_steps=most_steps,
+        tangent_at_end=tangent_at_end,
     )
 
 
