@@ -27,16 +27,16 @@ from probation.origin import commit
 from probation.records.campaign import Campaign
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.scores.answer import NO_ANSWER
-from probation_studies.blind.scores.board import false_alarms
+from probation_studies.blind.scores.board import by_strain_noise, false_alarms
 from probation_studies.blind.scores.case import Case
 from probation_studies.blind.scores.intervals import Rate
 from probation_studies.blind.seal import read_truth
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
-MOST = (2e-5, 2e-4, 5e-4)
-"""Noise of the strain, classes."""
+STRAIN_NOISES = {"to 2e-5": 2e-5, "to 2e-4": 2e-4, "to 5e-4": 5e-4, "above": np.inf}
+"""Classes of the recorded strain's standard deviation, and the most of each."""
 
 HEAD = ("laboratory", "commit", "seed", "specimens alike", "specimens differ", "strain noise to 5e-4")
 
@@ -89,13 +89,6 @@ def row(layout: Layout) -> str:
     return f"| {' | '.join(cells)} |"
 
 
-def by_strain_noise(nulls: Sequence[Case]) -> list[tuple[str, list[Case]]]:
-    """Classes of the noise of the recorded strain, and what is in them."""
-    at = np.searchsorted(MOST, [case.strain_noise for case in nulls])
-    names = [f"to {most:g}" for most in MOST] + [f"above {MOST[-1]:g}"]
-    return [(name, [case for case, own in zip(nulls, at, strict=True) if own == k]) for k, name in enumerate(names)]
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path, help="sealed folders of one laboratory each")
@@ -105,7 +98,7 @@ def main() -> None:
         print(row(layout), flush=True)
     if len(layouts) > 1:
         nulls = [case for layout in layouts for case, _ in asked(layout)]
-        for name, cases in [("all", nulls), *by_strain_noise(nulls)]:
+        for name, cases in [("all", nulls), *by_strain_noise(nulls, STRAIN_NOISES).items()]:
             print(f"strain noise {name}: {rate(Rate.of(case.answer.gap for case in cases).plain())}")
 
 

@@ -164,9 +164,10 @@ class Refitting:
             fit = refit(problem, start, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, first, fit.parameters):
                 return fit
-        way = {"differentiable": differentiable}
-        alike = reached(problem.with_noises(noises), first, most_steps=steps, **way).parameters
-        begun = reached(problem, alike, most_steps=min(steps, SEARCH.steps_apart), **way)
+        only_alike = problem.with_noises(noises)
+        alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
+        apart = min(steps, SEARCH.steps_apart)
+        begun = reached(problem, alike, most_steps=apart, differentiable=differentiable)
         if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
             if begun.steps < SEARCH.steps_apart:
                 return refit(problem, begun.parameters, most_steps=0)

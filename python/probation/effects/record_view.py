@@ -338,7 +338,7 @@ class RecordView:
         return self._with(true_strain=true_strain, strain_rate=rate, same_data=self.same_data or self)
 
     def _with(self, **changed: object) -> RecordView:
-        """The same with other values: `replace` in a tenth of its time, which a search would spend on little else."""
+        """The same with other values. `replace` takes some ten times as long; a search makes 40 000 views."""
         known, other = self.__dict__, object.__new__(RecordView)
         other.__dict__.update({name: known[name] for name in _FIELDS} | changed)
         return other

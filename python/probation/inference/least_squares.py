@@ -210,8 +210,8 @@ def minimise(
                     break
                 damping = mildest = first  # damped, a step says little of what is left to gain
                 continue
-            goes_on = tangent_at_end or steps + 1 < most_steps
-            moved = _moved(objective, bounds.clip(here.x + step), prior, here.cost, goes_on)
+            differentiable = tangent_at_end or steps + 1 < most_steps
+            moved = _moved(objective, bounds.clip(here.x + step), prior, here.cost, differentiable)
             if moved is not None:
                 break
             damping = max(5.0 * damping, FIRST_DAMPING)
@@ -232,8 +232,8 @@ class _Point(NamedTuple):
     tangent: tuple[FloatArray, FloatArray] | None
 
 
-def _moved(objective: Objective, x: FloatArray, prior: NormalPrior, cost: float, goes_on: bool) -> _Point | None:
-    """The problem at x, with its tangent where the search goes on.
+def _moved(objective: Objective, x: FloatArray, prior: NormalPrior, cost: float, differentiable: bool) -> _Point | None:
+    """The problem at x, with its tangent where it is to have one.
 
     None where the objective is not below `cost`, or it, or the derivative that is needed, cannot be had.
     """
@@ -243,7 +243,7 @@ def _moved(objective: Objective, x: FloatArray, prior: NormalPrior, cost: float,
             lower = float(residual @ residual) + prior.penalty(x)
         if not lower < cost:
             return None
-        tangent = objective.tangent(x) if goes_on else None
+        tangent = objective.tangent(x) if differentiable else None
     except UNSOLVABLE:
         return None
     return None if tangent is not None and not np.isfinite(tangent[1]).all() else _Point(x, lower, tangent)

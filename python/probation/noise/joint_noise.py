@@ -30,9 +30,7 @@ def joint_directions(more: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 def jointly_whitened(more: FloatArray, values: FloatArray) -> FloatArray:
     """(I + U U^T)^(-1/2) times columns (n,) or (n, m), U the noise on top, shape (n, k)."""
-    directions, shrink = joint_directions(more)
-    along = directions.T @ values
-    return np.asarray(values - directions @ (along * (shrink if values.ndim == 1 else shrink[:, None])))
+    return FewRoot(more).whiten(values)
 
 
 def joint_root(more: FloatArray) -> FewRoot | FullRoot:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -44,7 +44,7 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
         ),
         "false_alarms": Rate.of(case.answer.gap for case in nulls).plain(),
         "false_alarms_by_kind": false_alarms(nulls),
-        "by_strain_noise": {name: _quality(each) for name, each in _by_strain_noise(cases).items()},
+        "by_strain_noise": {name: _quality(each) for name, each in by_strain_noise(cases, STRAIN_NOISES).items()},
         "detection": {
             name: Rate.of(case.answer.gap for case in cases if case.causes and case.detectability_class == name).plain()
             for name, _, _ in DETECTABILITIES
@@ -71,12 +71,10 @@ def false_alarms(nulls: Sequence[Case]) -> dict[str, object]:
     }
 
 
-def _by_strain_noise(cases: Sequence[Case]) -> dict[str, list[Case]]:
-    most = np.array(list(STRAIN_NOISES.values()))
-    classes = [int(np.searchsorted(most, case.strain_noise)) for case in cases]
-    return {
-        name: [case for case, of in zip(cases, classes, strict=True) if of == k] for k, name in enumerate(STRAIN_NOISES)
-    }
+def by_strain_noise(cases: Sequence[Case], most: Mapping[str, float]) -> dict[str, list[Case]]:
+    """The cases of every class of the strain's noise, by name; `most` of each, rising."""
+    classes = np.searchsorted(list(most.values()), [case.strain_noise for case in cases])
+    return {name: [case for case, of in zip(cases, classes, strict=True) if of == k] for k, name in enumerate(most)}
 
 
 def _quality(cases: Sequence[Case]) -> dict[str, object]:
