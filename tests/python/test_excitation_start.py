@@ -6,7 +6,7 @@ from scipy.signal import bilinear, lfilter
 
 import probation
 from probation import Record, excite
-from probation.smoothing.averaging import averaging_of
+from probation.smoothing.averaging import Averaging, averaging_of, weighted_median
 from probation.smoothing.excitation import excite_each
 
 SAMPLES, LENGTH, NOISE = 420, 0.5, 1.5e-4
@@ -82,6 +82,43 @@ def test_an_average_that_the_curve_of_one_record_hides_is_known_from_the_others(
     errors = [np.sqrt(np.mean((found.true_strain - strains["neck"]) ** 2)) for found in (alone, together)]
     assert errors[1] < errors[0]
     assert next(excite_each(records[:1], further=records[1:])).freedom == together.freedom
+
+
+def hunting(samples, seed):
+    """A ramp whose machine gathers speed within 25 samples and then hunts by 2e-5, read with noise of 6e-6."""
+    random = np.random.default_rng(seed)
+    time = np.linspace(0.0, 100.0, samples)
+    away = lfilter([1.0], [1.0, -1.6, 0.63], random.standard_normal(samples))
+    late = 2.5 * (1.0 - np.exp(-((time / 5.0) ** 2)))
+    truth = 5e-3 * (time - late) + 2e-5 * (away - away[0]) / np.std(away)
+    return time, truth, truth + 6e-6 * random.standard_normal(samples)
+
+
+def test_a_machine_that_hunts_makes_no_averaged_noise():
+    """Second differences grow with the lag as those of averages do; fourth differences of neighbours do not."""
+    told = [averaging_of(hunting(500, seed)[2]) for seed in range(20)]
+    assert np.mean([one is None or one.inflation < 2.0 for one in told]) >= 0.9
+
+
+@pytest.mark.parametrize("seed", [0, 1, 7, 15])
+def test_a_machine_that_hunts_is_followed_from_its_start(seed):
+    """Where the noise was taken for averaged, the curve was so stiff that it missed the start."""
+    time, truth, strain = hunting(500, seed)
+    found = excite(record(time, strain))
+    assert np.sqrt(np.mean((found.true_strain - truth)[:40] ** 2)) < 1.5 * 6e-6
+
+
+def test_what_one_record_of_many_shows_is_not_taken_for_the_extensometer():
+    ramps = [5e-3 * np.linspace(0.0, 100.0, 600) + NOISE * averaged(1, 600, seed) for seed in range(4)]
+    once = 5e-3 * np.linspace(0.0, 100.0, 600) + NOISE * averaged(9, 600, 5)
+    assert averaging_of(once).inflation > 5.0
+    assert Averaging.pooled([*ramps, once]).inflation == pytest.approx(1.0, abs=0.1)
+
+
+def test_a_weighted_median_is_that_of_as_many_copies():
+    assert weighted_median([3.0, 1.0, 2.0], [1.0, 1.0, 1.0]) == 2.0
+    assert weighted_median([7.0, 1.0], [1.0, 5.0]) == pytest.approx(np.interp(0.5, [2.5 / 6, 5.5 / 6], [1.0, 7.0]))
+    assert weighted_median([4.0], [2.0]) == 4.0
 
 
 def test_averaged_noise_makes_no_jumps_of_the_rate():

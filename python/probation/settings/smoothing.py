@@ -23,6 +23,12 @@ class SmoothingSettings:
         "Standard error of a rate, over the median one, beyond which it does not count in the range of rates.",
     )
     correlated: float = chosen(1.2, "-", "Inflation of variances from which on noise is said to be correlated.")
+    white_neighbours: float = chosen(
+        1.3,
+        "-",
+        "Variance of fourth differences over two samples, over that of those over one, up to which a strain's noise is "
+        "white from sample to sample; 1.7 and more in averages of any length.",
+    )
     far_residual: float = chosen(8.0, "standard deviations", "Residuals beyond this are warned of.")
     rate_noise: float = chosen(
         2e-3,

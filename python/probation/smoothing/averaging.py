@@ -49,15 +49,24 @@ class Averaging:
     def pooled(cls, segments: Iterable[FloatArray]) -> Averaging:
         """Of segments whose strains have one extensometer.
 
-        In some of them the curve hides an average that others show. The mean of those that show it, weighted by their
-        samples; white noise if none does.
+        In some of them the curve hides an average that others show; in some, a machine that wanders looks like one. So
+        it is the median of those that show something, weighted by their samples; white noise if none does.
         """
         estimates = [(len(values), averaging) for values in segments if (averaging := averaging_of(values)) is not None]
         if not estimates:
             return cls()
-        parts = [(estimate.inflation, estimate.hidden) for _, estimate in estimates]
-        inflation, hidden = np.average(parts, axis=0, weights=[count for count, _ in estimates]).tolist()
-        return cls(inflation, hidden)
+        samples = [count for count, _ in estimates]
+        return cls(
+            weighted_median([estimate.inflation for _, estimate in estimates], samples),
+            weighted_median([estimate.hidden for _, estimate in estimates], samples),
+        )
+
+
+def weighted_median(values: Sequence[float], weights: Sequence[float]) -> float:
+    """Between the two values next to it, where one half of the weight lies on either side."""
+    order = np.argsort(values)
+    ordered, weight = np.asarray(values)[order], np.asarray(weights)[order]
+    return float(np.interp(0.5, (np.cumsum(weight) - 0.5 * weight) / weight.sum(), ordered))
 
 
 def segments_of(values: FloatArray, jumps: Sequence[int]) -> Iterator[FloatArray]:
@@ -72,15 +81,22 @@ def averaging_of(values: FloatArray) -> Averaging | None:
     By second differences over lags k, whose variance is :math:`6\gamma_0 - 8\gamma_k + 2\gamma_{2k}`: constant for
     white noise, in proportion to k up to the length of an average and constant beyond. That of a smooth curve grows as
     the fourth power of k; where it does, or no level is reached, fourth differences may still show it. None if neither
-    does.
+    does. A machine that wanders looks like an average to second differences, whose variance then grows in proportion to
+    k, too; but fourth differences over two samples are then no larger than those over one, as those of white noise.
 
     Parameters
     ----------
     values : ndarray, shape (n,)
         At even intervals or nearly so, without a jump of the slope.
     """
-    estimates = [averaging for order in ORDERS if (averaging := _by_differences(values, order)) is not None]
+    orders = ORDERS[-1:] if _neighbours_are_independent(values) else ORDERS
+    estimates = [averaging for order in orders if (averaging := _by_differences(values, order)) is not None]
     return max(estimates, key=lambda estimate: estimate.inflation) if estimates else None
+
+
+def _neighbours_are_independent(values: FloatArray) -> bool:
+    near, further = (_variance(values, lag, ORDERS[-1]) for lag in (1, 2))
+    return further < SMOOTHING.white_neighbours * near
 
 
 def _by_differences(values: FloatArray, order: int) -> Averaging | None:

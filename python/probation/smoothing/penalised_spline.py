@@ -13,7 +13,7 @@ from scipy.ndimage import median_filter
 from scipy.optimize import minimize_scalar
 
 from probation.settings.smoothing import SMOOTHING
-from probation.smoothing.averaging import averaging_of
+from probation.smoothing.averaging import Averaging
 from probation.smoothing.operators import Operators
 from probation.smoothing.smoothed import ROUNDS, Smoothed, inflation, polynomial
 from probation.smoothing.transient import WithTransient
@@ -33,14 +33,14 @@ COARSE = 120
 
 
 def smooth_cubic(
-    time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float = 1.0
+    time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float | None = None
 ) -> Smoothed:
     """Smooth by a cubic spline that penalises the integral of the second derivative's square."""
     return _smooth(time, true_strain, 2, lags, averaged)
 
 
 def smooth_quintic(
-    time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float = 1.0
+    time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float | None = None
 ) -> Smoothed:
     """Smooth by a quintic spline that penalises the integral of the third derivative's square.
 
@@ -194,14 +194,16 @@ class Score:
         return self.shrink(float(minimum.x))
 
 
-def _smooth(time: FloatArray, true_strain: FloatArray, order: int, lags: Transient | None, averaged: float) -> Smoothed:
+def _smooth(
+    time: FloatArray, true_strain: FloatArray, order: int, lags: Transient | None, averaged: float | None
+) -> Smoothed:
     count = len(time)
     if count < 4 * order + 2:
         return polynomial(time, true_strain, 1 if count < 6 else 2)
     most = count // 2  # more would leave functions near the ends that no sample determines
     knots = min(most, max(FEWEST_KNOTS, min(count // SMOOTHING.samples_per_knot, MOST_KNOTS)))
-    own = averaging_of(true_strain)
-    averaged = averaged if own is None else max(averaged, own.inflation)
+    if averaged is None:
+        averaged = Averaging.pooled([true_strain]).inflation
     smoothed = _with_knots(time, true_strain, order, knots, lags, averaged)
     while smoothed.freedom > SMOOTHING.exhausted * knots and knots < min(most, ALL_KNOTS):
         knots = min(2 * knots, most, ALL_KNOTS)

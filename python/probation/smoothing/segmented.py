@@ -28,7 +28,7 @@ def smooth_segments(
     noise: float,
     *,
     lagging: LaggingSmoother | None = None,
-    averaged: float = 1.0,
+    averaged: float | None = None,
 ) -> Smoothed:
     """Smooth each segment by itself.
 
@@ -47,9 +47,9 @@ def smooth_segments(
         Standard deviation of the strain noise [-].
     lagging : LaggingSmoother, optional
         In place of `smoother` where the strain may lag behind its command at the start of a segment.
-    averaged : float
+    averaged : float, optional
         Inflation of the noise's variance in slow averages, as the records of the same extensometer show it together;
-        for a lagging smoother.
+        for a lagging smoother, which else seeks it in each segment.
     """
     if lagging is not None:
         smoother = lagging = partial(lagging, averaged=averaged)

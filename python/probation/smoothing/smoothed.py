@@ -74,9 +74,9 @@ class LaggingSmoother(Smoother, Protocol):
     """One that can tell lags after the start of the segment from its noise, also where that is averaged."""
 
     def __call__(
-        self, time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float = 1.0
+        self, time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float | None = None
     ) -> Smoothed:
-        """Smooth; `lags` at the same samples, `averaged` the least inflation of the noise's variance."""
+        """Smooth; `lags` at the same samples, `averaged` the least inflation of its variance, sought if None."""
 
 
 def inflation(residual: FloatArray) -> float:
