@@ -35,6 +35,7 @@ def explanations_of(weighed: Sequence[Weighed], checks: Mapping[tuple[str, ...],
                 probability=explanation.probability,
                 parameters=cause_parameters(explanation.hypothesis),
                 checks=checks.get(explanation.effects),
+                log_evidence=explanation.log_evidence,
             )
         )
     return tuple(entries)

@@ -20,8 +20,7 @@ if TYPE_CHECKING:
 
     from probation._arrays import FloatArray
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.effects.cause import Cause
-    from probation.effects.effect import Effect
+    from probation.effects.effect import Effect, Form
     from probation.inference.calibration_check import Trust
 
 
@@ -47,11 +46,15 @@ class Weighed:
     probability : float
     hypothesis : Hypothesis
         The form and place with the most evidence.
+    log_evidence : float or None
+        Natural logarithm of its evidence over that of the base law alone, all forms and places together, before it is
+        taken to a power and weighed with what was probable beforehand; None where nothing was fitted.
     """
 
     effects: tuple[str, ...]
     probability: float
     hypothesis: Hypothesis
+    log_evidence: float | None = None
 
 
 def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust = EXACT) -> list[Weighed]:
@@ -74,23 +77,55 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
             (with_unknown(hypothesis.effects), hypothesis.evidence.log_evidence_unknown),
         ):
             together.setdefault(effects, []).append((score + inside, hypothesis))
-    evidence = _beyond_forms(
-        {effects: float(logsumexp([score for score, _ in entries])) for effects, entries in together.items()},
-        trust.left_by_forms,
-        periodic={cause.effect.name for hypothesis in hypotheses for cause in hypothesis.causes if _periodic(cause)},
-    )
-    gained = np.array([evidence[effects] for effects in together])
-    before = np.array([log_prior(effects, count) + _log_odds(entries[0][1]) for effects, entries in together.items()])
-    chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
-    chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
-    far = softmax(_of_known(together, trust.power_in_strong_doubt * gained + before))
-    chances = (1.0 - trust.strong_doubt) * chances + trust.strong_doubt * far
-    chances = _unknown_cut(chances, evidence, trust.most_unknown)
+    evidence = {effects: float(logsumexp([score for score, _ in entries])) for effects, entries in together.items()}
+    odds = {effects: _log_odds(entries[0][1]) for effects, entries in together.items()}
+    periodic = {
+        cause.effect.name for hypothesis in hypotheses for cause in hypothesis.causes if is_periodic(cause.form)
+    }
     weighed = [
-        Weighed(effects, chance, _standing_for(entries))
-        for (effects, entries), chance in zip(together.items(), chances.tolist(), strict=True)
+        Weighed(effects, chance, _standing_for(together[effects]), _finite(evidence[effects] - evidence[()]))
+        for effects, chance in chances_of(evidence, odds, count, trust, periodic=periodic).items()
     ]
     return sorted(weighed, key=lambda explanation: -explanation.probability)
+
+
+def chances_of(
+    log_evidence: Mapping[tuple[str, ...], float],
+    log_odds: Mapping[tuple[str, ...], float],
+    count: int,
+    trust: Trust,
+    *,
+    periodic: Collection[str],
+) -> dict[tuple[str, ...], float]:
+    """Probabilities of explanations by their evidence and by what was probable beforehand.
+
+    Parameters
+    ----------
+    log_evidence : mapping
+        Of every explanation, () among them, but for a constant.
+    log_odds : mapping
+        Of its effects relative to usual ones, beforehand.
+    count : int
+        Of the catalogue.
+    trust : Trust
+        How far evidence counts.
+    periodic : collection of str
+        Effects that are periodic.
+
+    Returns
+    -------
+    dict
+        They sum to 1, in the order of `log_evidence`.
+    """
+    evidence = _beyond_forms(log_evidence, trust.left_by_forms, periodic=periodic)
+    gained = np.array(list(evidence.values()))
+    before = np.array([log_prior(effects, count) + log_odds[effects] for effects in evidence])
+    chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
+    chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
+    far = softmax(_of_known(evidence, trust.power_in_strong_doubt * gained + before))
+    chances = (1.0 - trust.strong_doubt) * chances + trust.strong_doubt * far
+    chances = _unknown_cut(chances, evidence, trust.most_unknown)
+    return dict(zip(evidence, chances.tolist(), strict=True))
 
 
 def _of_known(explanations: Iterable[tuple[str, ...]], scores: FloatArray) -> FloatArray:
@@ -114,8 +149,13 @@ def _unknown_cut(chances: FloatArray, evidence: Mapping[tuple[str, ...], float],
     return np.where(np.arange(len(chances)) == at, most, others * chances)
 
 
-def _periodic(cause: Cause) -> bool:
-    return cause.form.sharp in ("line", "strain_period")
+def _finite(value: float) -> float | None:
+    return value if np.isfinite(value) else None
+
+
+def is_periodic(form: Form) -> bool:
+    """Whether what it makes comes back in time or in the strain."""
+    return form.sharp in ("line", "strain_period")
 
 
 def _beyond_forms(

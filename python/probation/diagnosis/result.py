@@ -120,6 +120,10 @@ class Explanation:
     parameters : tuple of CauseParameter
     checks : Checks or None
         For the leading ones.
+    log_evidence : float or None
+        Natural logarithm of the marginal likelihood over that of the base law alone, errors of its forms allowed for:
+        what the records say, before it is taken to a power and weighed with what was probable beforehand. None where
+        nothing was fitted.
     """
 
     effects: tuple[str, ...]
@@ -129,6 +133,7 @@ class Explanation:
     probability: float
     parameters: tuple[CauseParameter, ...] = ()
     checks: Checks | None = None
+    log_evidence: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -506,6 +511,7 @@ def _explanation(explanation: Explanation) -> dict[str, Any]:
         "effects": list(explanation.effects),
         "records": list(explanation.records),
         "probability": explanation.probability,
+        "log_evidence": explanation.log_evidence,
         "forms": list(explanation.forms),
         "parameters": parameters,
         "checks": None
