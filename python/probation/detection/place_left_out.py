@@ -1,7 +1,8 @@
 """The residual of a fit that leaves the place of a gap out: what a refit smears comes back to where it belongs.
 
 A law that is fitted to a gap bends its parameters towards it, and then errs everywhere a little. Where nothing is known
-of the gap's form, the fit can still leave its place out.
+of the gap's form, the fit can still leave its place out (compare Kahl, Weber and Kschischo on localising hidden
+inputs).
 """
 
 from __future__ import annotations

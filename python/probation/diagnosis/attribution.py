@@ -89,7 +89,8 @@ class Attribution:
         By share, then by probability.
     named : tuple of str
         The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
-        and leave no more than `EVIDENCE.most_left` times what it leaves; by share.
+        and leave no more than `EVIDENCE.most_left` times what it leaves, or the noise; by share. Effects that can stand
+        in for each other are named, too, where all act with `EVIDENCE.credible_set`.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float

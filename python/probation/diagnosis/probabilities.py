@@ -333,7 +333,10 @@ def log_prior(effects: tuple[str, ...], count: int) -> float:
 
 
 def answer_set(weighed: Sequence[Weighed], covered: float = EVIDENCE.credible_set) -> tuple[tuple[str, ...], ...]:
-    """The most probable explanations that hold so much probability together, best first."""
+    """The most probable explanations that hold so much probability together, best first.
+
+    Compare the model confidence set of Hansen, Lunde and Nason (2011).
+    """
     return tuple(explanation.effects for explanation in leading(weighed, covered))
 
 

@@ -12,8 +12,9 @@ the relative error of a form. B are smooth waves over every record, H slow noise
 (`noise.nuisance_drift`), D = (s/4)^2 lambda_r v the variance of a discrepancy that is no function of the coordinate:
 lambda_r what the explanation does to record r, v the spectrum of smooth curves. s is a quarter as large, in F and in D,
 for a fault of the rig. s is integrated out, so that a form that is right is not charged for a freedom that it does not
-need. "Unknown" has nothing but a discrepancy of any size, of several kinds (`inference.unknown`; Kennedy & O'Hagan
-2001; docs/diagnosis-method.md, sections 4 and 7).
+need. "Unknown" has nothing but a discrepancy of any size, of several kinds (`inference.unknown`;
+docs/diagnosis-method.md, sections 4 and 7). A discrepancy as a Gaussian process is Kennedy and O'Hagan's (2001); that
+its prior has to say what it can be is Brynjarsdóttir and O'Hagan's (2014).
 """
 
 from __future__ import annotations

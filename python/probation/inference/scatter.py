@@ -4,6 +4,8 @@
 Replicates are records of different specimens under one strain history. What the law misses is the same in all of them
 and stands in the mean of the group; what differs within a group is noise and the specimens' deviations. Their
 variances are had from that alone, by restricted likelihood, so that no missing effect passes for scatter.
+
+E_u, G and the section cannot be separated in one specimen; over several they can, as far as E_u and G vary together.
 """
 
 from __future__ import annotations
@@ -215,7 +217,10 @@ def _drawn(
 
 
 def _walked(parts: FloatArray, seen: FloatArray) -> FloatArray:
-    """Draws of s, shape (n_draws, k), given seen ~ N(0, I + sum s_k^2 parts_k) and a prior of root mean square 1."""
+    """Draws of s, shape (n_draws, k), given seen ~ N(0, I + sum s_k^2 parts_k) and a prior of root mean square 1.
+
+    The prior is half-Student and ends at `NOISE.largest_scatter`, which takes its root mean square to 0.87.
+    """
     count = len(parts)
     scale = np.sqrt((NOISE.scatter_prior_freedom - 2.0) / NOISE.scatter_prior_freedom)
 

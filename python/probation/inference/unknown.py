@@ -4,6 +4,11 @@ It may be one function of the strain in all records; periodic in the strain, as 
 in each record; a smooth discrepancy in one record, of one size in all, or of its own size in each. Which of these
 nobody knows beforehand, so that each has a share of the prior and its size is integrated over: what a few numbers tell
 earns more than what takes many.
+
+In white coordinates the covariances are I + s C C^T: C waves over the strain, the strain-periodic component (if it is
+more than a line in time), or the records' own tangents; and I + s B diag(v) B^T, B smooth waves along all records or
+one, v their spectrum (`Discrepancy`). s takes the values of `SIZES`; a size of its own in each record is its best one,
+for the price of the choice. The law's parameters are free, and so are errors of the forms of known effects.
 """
 
 from __future__ import annotations

@@ -4,7 +4,8 @@ Below the dozenth half period of a record a bias would show first, so that `esti
 nothing slower. Slow electronics, a drifting laboratory: noise whose power falls as 1/k with the order k of a cosine
 wave shows there as a slight rise, and is many times the white noise at k = 1. A bias is smoother: its power falls as
 k^-2 to k^-4. So the spectrum of what that process whitens, 1 + c/k + d/k^3, tells how much of the slow waves is noise.
-It is fitted from the eighth half period on (`NOISE.lowest_drift_order`), d standing for a bias.
+It is fitted from the eighth half period on (`NOISE.lowest_drift_order`), d standing for a bias: it takes what a gap
+makes there.
 """
 
 from __future__ import annotations
