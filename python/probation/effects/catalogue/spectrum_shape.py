@@ -9,6 +9,9 @@ from probation.effects.relaxation_spectra import cole_cole, stretched_exponentia
 from probation.law.modification import Modification, OtherSpectrum
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
 
@@ -70,6 +73,15 @@ def _stretched(view: RecordView, values: Values) -> Modification:
     return Modification(other_spectrum=OtherSpectrum(part, lambda ratio: stretched_exponential(ratio / time, exponent)))
 
 
+def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None = None) -> list[tuple[float, ...]]:
+    """A fifth of the modulus by a faster process or a slower one, or nearly all of it.
+
+    The slope at none of it leads a search far astray: a part that takes the place of the law's own times needs another
+    modulus.
+    """
+    return [(part, time, 0.5) for part, times in ((0.2, (0.01, 0.5)), (0.9, (0.01, 0.1))) for time in times]
+
+
 EFFECT = Effect(
     name="spectrum_shape",
     title="another shape of the spectrum",
@@ -100,7 +112,21 @@ EFFECT = Effect(
             ),
             modification=_weights,
         ),
-        Form("cole_cole", (_PART, _TIME, _COLE_COLE), modification=_cole_cole, variant=True),
-        Form("stretched_exponential", (_PART, _TIME, _STRETCH), modification=_stretched, variant=True),
+        Form(
+            "cole_cole",
+            (_PART, _TIME, _COLE_COLE),
+            modification=_cole_cole,
+            starts=_starts,
+            threshold=True,
+            variant=True,
+        ),
+        Form(
+            "stretched_exponential",
+            (_PART, _TIME, _STRETCH),
+            modification=_stretched,
+            starts=_starts,
+            threshold=True,
+            variant=True,
+        ),
     ),
 )
