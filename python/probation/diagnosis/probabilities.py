@@ -76,14 +76,15 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
             (hypothesis.effects, value),
             (with_unknown(hypothesis.effects), hypothesis.evidence.log_evidence_unknown),
         ):
-            together.setdefault(effects, []).append((score + inside, hypothesis))
+            if np.isfinite(score):  # else it was not tried
+                together.setdefault(effects, []).append((score + inside, hypothesis))
     evidence = {effects: float(logsumexp([score for score, _ in entries])) for effects, entries in together.items()}
     odds = {effects: _log_odds(entries[0][1]) for effects, entries in together.items()}
     periodic = {
         cause.effect.name for hypothesis in hypotheses for cause in hypothesis.causes if is_periodic(cause.form)
     }
     weighed = [
-        Weighed(effects, chance, _standing_for(together[effects]), _finite(evidence[effects] - evidence[()]))
+        Weighed(effects, chance, _standing_for(together[effects]), evidence[effects] - evidence[()])
         for effects, chance in chances_of(evidence, odds, count, trust, periodic=periodic).items()
     ]
     return sorted(weighed, key=lambda explanation: -explanation.probability)
@@ -130,7 +131,7 @@ def chances_of(
 
 def _of_known(explanations: Iterable[tuple[str, ...]], scores: FloatArray) -> FloatArray:
     """Scores of the explanations by known effects alone, if there are any; none of the others."""
-    known = np.array([bool(effects) and UNKNOWN not in effects for effects in explanations]) & np.isfinite(scores)
+    known = np.array([bool(effects) and UNKNOWN not in effects for effects in explanations])
     return np.where(known, scores, -np.inf) if known.any() else scores
 
 
@@ -147,10 +148,6 @@ def _unknown_cut(chances: FloatArray, evidence: Mapping[tuple[str, ...], float],
         return chances
     others = (1.0 - most) / (1.0 - chances[at])
     return np.where(np.arange(len(chances)) == at, most, others * chances)
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None
 
 
 def is_periodic(form: Form) -> bool:
