@@ -1,0 +1,136 @@
+"""Answers weighed anew by the log evidence that they state, as if evidence were trusted otherwise.
+
+What is known only while records are at hand stays as the answer has it: which explanation is left to an unknown, and
+none is refused by a record that was held out.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import log
+from typing import TYPE_CHECKING, Any
+
+from probation.diagnosis.probabilities import (
+    Weighed,
+    chances_of,
+    effect_count,
+    given_a_gap,
+    is_periodic,
+    with_unknown_leading,
+    with_unseen,
+)
+from probation.effects.registry import effects
+from probation.errors import InputError
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.scores.answer import UNKNOWN, read_answer
+from probation_studies.blind.scores.case import Case
+from probation_studies.blind.seal import read_truth
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from pathlib import Path
+
+    from probation.effects.effect import Effect
+    from probation.inference.calibration_check import Trust
+    from probation_studies.blind.scores.answer import Names
+
+KNOWN = {effect.name: effect for effect in effects()}
+
+
+@dataclass(frozen=True, eq=False)
+class Gap:
+    """A declared gap with a cause.
+
+    Attributes
+    ----------
+    laboratory : str
+    case : Case
+    p_value : float
+        Of the test for a gap.
+    inside : bool
+        Whether it lies within the calibrated ranges.
+    log_evidence : dict
+        Of every explanation that was fitted, over that of none.
+    periodic : frozenset of str
+        Effects in a periodic form.
+    """
+
+    laboratory: str
+    case: Case
+    p_value: float
+    inside: bool
+    log_evidence: dict[Names, float]
+    periodic: frozenset[str]
+
+    @cached_property
+    def considered(self) -> list[Effect]:
+        """Effects that could act: those in some explanation, fitted or not."""
+        return [
+            KNOWN[name]
+            for name in sorted({name for names in self.case.answer.probability for name in names})
+            if name in KNOWN
+        ]
+
+    @cached_property
+    def count(self) -> int:
+        """How many share their prior probability."""
+        return effect_count(self.considered)
+
+    @cached_property
+    def log_odds(self) -> dict[Names, float]:
+        """Of effects that are rare."""
+        return {names: sum(log(KNOWN[name].odds) for name in names if name in KNOWN) for names in self.log_evidence}
+
+    @property
+    def left_to_an_unknown(self) -> Names | None:
+        """The explanation that the answer leaves to an unknown jointly with it, if one leads so."""
+        top = self.case.answer.top
+        return tuple(name for name in top if name != UNKNOWN) if UNKNOWN in top and len(top) > 1 else None
+
+    def weighed(self, trust: Trust) -> list[Weighed]:
+        """Explanations that were fitted, the most probable first: the answer set is taken from them."""
+        found = self._judged(trust)
+        if trust.left_by_forms and UNKNOWN in found[0].effects:
+            found = self._judged(replace(trust, left_by_forms=0.0))
+        return with_unknown_leading(found) if found[0].effects == self.left_to_an_unknown else found
+
+    def stated(self, found: list[Weighed]) -> dict[Names, float]:
+        """Probabilities as an answer states them: with pairs whose second effect was not tried."""
+        return {each.effects: each.probability for each in with_unseen(found, self.considered)}
+
+    def _judged(self, trust: Trust) -> list[Weighed]:
+        chances = chances_of(self.log_evidence, self.log_odds, self.count, trust, periodic=self.periodic)
+        found = [Weighed(names, chance, None) for names, chance in chances.items()]
+        return given_a_gap(sorted(found, key=lambda each: -each.probability), self.p_value)
+
+
+def answered(folder: Path) -> Iterator[tuple[Case, dict[str, Any]]]:
+    """Campaigns of a sealed folder that are answered, with their diagnoses; its truths are opened."""
+    layout = Layout(folder)
+    for path in sorted(layout.answers.glob("*-[0-9]*.json")):
+        diagnosis = json.loads(path.read_text()).get("diagnosis")
+        if diagnosis is not None:
+            truth = json.loads(read_truth(layout.truths / path.name).text)
+            yield Case(path.stem, truth, read_answer(diagnosis, str(path))), diagnosis
+
+
+def gaps_of(folder: Path) -> list[Gap]:
+    """Declared gaps with a cause."""
+    laboratory = str(Layout(folder).published()[0]["laboratory"])
+    return [gap_in(laboratory, *each) for each in answered(folder) if each[0].causes and each[0].answer.gap]
+
+
+def gap_in(laboratory: str, case: Case, diagnosis: Mapping[str, Any]) -> Gap:
+    causes = [each for each in diagnosis["causes"] if each.get("log_evidence") is not None]
+    if not causes:
+        raise InputError(f"{case.name}: found no log_evidence in its answer, expected it; solve with this version")
+    periodic = frozenset(
+        name
+        for each in causes
+        for name in each["effects"]
+        if name in KNOWN and any(is_periodic(form) and form.name in each["forms"] for form in KNOWN[name].forms)
+    )
+    evidence = {tuple(sorted(each["effects"])): float(each["log_evidence"]) for each in causes}
+    return Gap(laboratory, case, diagnosis["gap"]["p_value"], diagnosis["calibration"]["inside"], evidence, periodic)

@@ -1,0 +1,76 @@
+"""Answers weighed anew by the evidence that they state, and settings that are tuned on other laboratories."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from bench.in_turn import Judged, level_of, rows
+from bench.reweighed import gap_in
+
+import probation
+from probation.inference.calibration_check import EXACT, CalibrationCheck, Trust
+from probation.records.record import Noise, Record
+from probation_studies.blind.scores.answer import read_answer
+from probation_studies.blind.scores.case import Case
+
+TRUTH = ("force_gain",)
+
+
+def planted():
+    """Three ramps, the last one read 6 % too high."""
+    law = probation.Law(unrelaxed_modulus=1500.0, tau_max=8.0, hardening_modulus=2.5)
+    records = []
+    for seed, (rate, gain) in enumerate(((2e-3, 1.0), (6e-3, 1.0), (2e-2, 1.06))):
+        time = np.linspace(0.0, 0.6 / rate, 300)
+        stress = gain * law.stress(time, rate * time) + 0.05 * np.random.default_rng(seed).standard_normal(300)
+        records.append(Record(f"r{seed}", time, rate * time, stress, noise=Noise(strain=0.0)))
+    return probation.Campaign("gain", records, specimens=probation.Specimens("none"))
+
+
+@pytest.fixture(scope="module")
+def gap():
+    diagnosis = json.loads(probation.diagnose(planted(), design=False).to_json())
+    truth = {"stratum": "single", "causes": [{"effect": "force_gain"}], "explanation": [*TRUTH], "mimics": []}
+    truth["oracle"] = {"answer_set": [[*TRUTH]], "posterior": {}, "right": 1.0}
+    return gap_in("university", Case("gain", truth, read_answer(diagnosis, "gain")), diagnosis)
+
+
+def test_weighed_by_the_settings_in_force_an_answer_is_what_it_states(gap):
+    trust = CalibrationCheck(gap.inside).trust
+    stated = gap.stated(gap.weighed(trust))
+    assert stated == pytest.approx(gap.case.answer.probability, abs=1e-9)
+
+
+def test_log_evidence_is_relative_to_the_base_law_and_null_for_what_was_not_fitted(gap):
+    assert gap.log_evidence[()] == 0.0
+    assert gap.log_evidence[TRUTH] == max(gap.log_evidence.values())
+    assert gap.log_evidence[TRUTH] > 50.0
+    assert len(gap.log_evidence) < len(gap.case.answer.probability)
+
+
+def test_evidence_to_a_lower_power_says_less(gap):
+    told = [dict(Judged.of(gap, Trust(power)).ranked)[TRUTH] for power in (1.0, 0.2, 0.02)]
+    assert told == sorted(told, reverse=True)
+    assert Judged.of(gap, EXACT).right
+
+
+def test_a_conformal_level_holds_as_many_as_it_says():
+    random = np.random.default_rng(0)
+
+    class Reached:
+        def __init__(self, reached):
+            self.reached = reached
+
+    draws = random.uniform(size=(4000, 60))
+    held = [level_of([Reached(each) for each in row[:-1]]) >= row[-1] for row in draws]
+    assert np.mean(held) == pytest.approx(0.95, abs=0.02)
+    assert level_of([Reached(0.5)] * 10) == 1.0
+
+
+def test_every_laboratory_is_scored_by_what_the_others_tell(gap):
+    gaps = [replace(gap, laboratory=name) for name in ("a", "a", "b", "c")]
+    found = rows(gaps)
+    assert [row[0] for row in found] == ["a", "a", "b", "b", "c", "c"]
+    assert [row[2] for row in found[::2]] == ["2", "1", "1"]
+    assert all(row[1] == "in force" for row in found[::2])
