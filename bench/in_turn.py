@@ -4,8 +4,8 @@
 weighed anew by the log evidence that they state (`bench.reweighed`). For every laboratory those settings of `Trust` are
 taken that give the truths of the others' declared gaps the highest mean log probability; and the level of the answer
 sets that holds 95 % of these truths (conformal calibration; Vovk, Gammerman and Shafer 2005), for gaps that an unknown
-leads and for others by itself. What is printed is of the laboratory left out, beside the settings in force. Truths that
-an answer does not list count as 1e-4.
+leads and for others by itself. What is printed is of the laboratory left out, beside the settings in force. A truth
+with less than 1e-4, or that an answer does not list, counts as 1e-4.
 """
 
 from __future__ import annotations
@@ -94,14 +94,17 @@ class Judged:
         return UNKNOWN in self.ranked[0][0]
 
     @property
-    def reached(self) -> float:
-        """Probability of all down to the truth; more than all where it is not among them."""
+    def before(self) -> float:
+        """Probability of all that come before the truth; 1 where it is not among them.
+
+        A set holds the truth where this is below its level: it ends with the explanation that reaches it.
+        """
         total = 0.0
         for names, value in self.ranked:
-            total += value
             if names in self.gap.case.admitted:
                 return total
-        return 2.0
+            total += value
+        return 1.0
 
     def size(self, level: float) -> int:
         """Of the set that holds so much."""
@@ -114,15 +117,14 @@ def judged(gaps: Iterable[Gap], trust: Trust | None = None) -> list[Judged]:
 
 
 def level_of(found: Sequence[Judged]) -> float:
-    """Their conformal quantile; 1, all explanations, where there are too few."""
+    """Just above their conformal quantile; 1, all explanations, where there are too few."""
     rank = ceil((len(found) + 1) * EVIDENCE.credible_set)
-    return min(sorted(each.reached for each in found)[rank - 1], 1.0) if rank <= len(found) else 1.0
+    return min(np.nextafter(sorted(each.before for each in found)[rank - 1], 2.0), 1.0) if rank <= len(found) else 1.0
 
 
-def row(laboratory: str, name: str, own: Sequence[Judged], levels: tuple[float, float]) -> list[str]:
-    """What the settings come to there; `levels` are those of others, and of gaps that an unknown leads."""
-    level = [levels[each.by_an_unknown] for each in own]
-    held = [each.reached <= most + 1e-12 for each, most in zip(own, level, strict=True)]
+def row(laboratory: str, name: str, own: Sequence[Judged], level: Sequence[float]) -> list[str]:
+    """What the settings come to there, with the level of each gap's answer set."""
+    held = [each.before < most for each, most in zip(own, level, strict=True)]
     return [
         laboratory,
         name,
@@ -130,7 +132,7 @@ def row(laboratory: str, name: str, own: Sequence[Judged], levels: tuple[float, 
         f"{np.mean([each.log_score for each in own]):.2f}",
         f"{np.mean([each.ranked[0][1] for each in own]):.2f}",
         f"{np.mean([each.right for each in own]):.2f}",
-        " and ".join(f"{100.0 * each:.2f} %" for each in dict.fromkeys(levels)),
+        " and ".join(f"{100.0 * each:.2f} %" for each in sorted({*level})),
         f"{100.0 * np.mean(held):.0f} %",
         f"{np.mean([each.size(most) for each, most in zip(own, level, strict=True)]):.1f}",
         f"{np.mean([len(each.gap.case.oracle['answer_set']) for each in own]):.1f}",
@@ -157,15 +159,13 @@ def rows(gaps: Sequence[Gap]) -> list[list[str]]:
     }
     found = []
     for name, own in of.items():
-        covered = CalibrationCheck(inside=False).covered
-        found.append(row(name, "in force", judged(own), (covered, covered)))
+        found.append(row(name, "in force", judged(own), [CalibrationCheck(gap.inside).covered for gap in own]))
         others = np.hstack([scores[other] for other in of if other != name])
         best = compared[int(np.argmax(others.mean(axis=1)))]
         theirs = judged((gap for gap in gaps if gap.laboratory != name), best)
-        levels = tuple(
-            level_of([each for each in theirs if each.by_an_unknown == unknown]) for unknown in (False, True)
-        )
-        found.append(row(name, said(best), judged(own, best), levels))
+        levels = [level_of([each for each in theirs if each.by_an_unknown == by]) for by in (False, True)]
+        tuned = judged(own, best)
+        found.append(row(name, said(best), tuned, [levels[each.by_an_unknown] for each in tuned]))
     return found
 
 
@@ -173,6 +173,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path, help="sealed folders of several laboratories, answered")
     gaps = [gap for folder in parser.parse_args().folders for gap in gaps_of(folder)]
+    if len({gap.laboratory for gap in gaps}) < 2:
+        parser.error("found gaps of one laboratory, expected those of two at least: one is left out")
     lines = [HEAD, ("---",) * len(HEAD), *rows(gaps)]
     print("\n".join(f"| {' | '.join(line)} |" for line in lines))
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from bench.in_turn import Judged, level_of, rows
+from bench.in_turn import Judged, level_of, row, rows
 from bench.reweighed import gap_in
 
 import probation
@@ -55,22 +55,29 @@ def test_evidence_to_a_lower_power_says_less(gap):
     assert Judged.of(gap, EXACT).right
 
 
+class Before:
+    def __init__(self, before):
+        self.before = before
+
+
 def test_a_conformal_level_holds_as_many_as_it_says():
-    random = np.random.default_rng(0)
-
-    class Reached:
-        def __init__(self, reached):
-            self.reached = reached
-
-    draws = random.uniform(size=(4000, 60))
-    held = [level_of([Reached(each) for each in row[:-1]]) >= row[-1] for row in draws]
+    draws = np.random.default_rng(0).uniform(size=(4000, 60))
+    held = [row[-1] < level_of([Before(each) for each in row[:-1]]) for row in draws]
     assert np.mean(held) == pytest.approx(0.95, abs=0.02)
-    assert level_of([Reached(0.5)] * 10) == 1.0
+    assert level_of([Before(0.5)] * 10) == 1.0
+
+
+def test_a_set_holds_what_takes_it_over_its_level(gap):
+    """The truth with 0.99 is the whole set of 98 %; one that is not listed is held by none."""
+    certain = Judged(gap, [(TRUTH, 0.99), (("damage",), 0.01)], 0.99)
+    lost = replace(certain, ranked=[(("damage",), 1.0)])
+    assert (certain.before, certain.size(0.98), lost.before) == (0.0, 1, 1.0)
+    assert row("lab", "settings", [certain, lost], [0.98, 0.98])[7] == "50 %"
 
 
 def test_every_laboratory_is_scored_by_what_the_others_tell(gap):
     gaps = [replace(gap, laboratory=name) for name in ("a", "a", "b", "c")]
     found = rows(gaps)
-    assert [row[0] for row in found] == ["a", "a", "b", "b", "c", "c"]
-    assert [row[2] for row in found[::2]] == ["2", "1", "1"]
-    assert all(row[1] == "in force" for row in found[::2])
+    assert [line[0] for line in found] == ["a", "a", "b", "b", "c", "c"]
+    assert [line[2] for line in found[::2]] == ["2", "1", "1"]
+    assert all(line[1] == "in force" for line in found[::2])

@@ -78,7 +78,7 @@ def named(planted, name):
     found = diagnosed(planted)
     first = found.effects[0]
     assert (first.name, first.named) == (name, True), found.headline
-    assert first.probability > 0.7
+    assert first.probability > 0.75
     assert first.alone > 0.9
     return found
 

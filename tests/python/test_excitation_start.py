@@ -108,6 +108,18 @@ def test_a_machine_that_hunts_is_followed_from_its_start(seed):
     assert np.sqrt(np.mean((found.true_strain - truth)[:40] ** 2)) < 1.5 * 6e-6
 
 
+@pytest.mark.parametrize("window", range(2, 10))
+def test_an_average_of_any_length_is_not_taken_for_white(window):
+    ramp = 5e-3 * np.linspace(0.0, 100.0, 400)
+    told = [averaging_of(ramp + NOISE * averaged(window, 400, seed)) for seed in range(20)]
+    assert np.median([one.inflation for one in told if one is not None]) == pytest.approx(window, rel=0.35)
+
+
+@pytest.mark.parametrize("count", range(13))
+def test_of_a_few_samples_no_average_is_seen(count):
+    assert averaging_of(np.random.default_rng(count).standard_normal(count)) is None
+
+
 def test_what_one_record_of_many_shows_is_not_taken_for_the_extensometer():
     ramps = [5e-3 * np.linspace(0.0, 100.0, 600) + NOISE * averaged(1, 600, seed) for seed in range(4)]
     once = 5e-3 * np.linspace(0.0, 100.0, 600) + NOISE * averaged(9, 600, 5)

@@ -135,12 +135,12 @@ def causes_of(
         weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), trust), p_value)
         return Causes(base, considered, hypotheses, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
-    base, hypotheses, behind = _searched(base, considered, threads, skipping, budget, progress)
-    hypotheses, behind = ([one.as_reached(hypotheses[0]) for one in many] for many in (hypotheses, behind))
+    base, hypotheses = _searched(base, considered, threads, skipping, budget, progress)
+    hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)
 
     def judged(trust: Trust) -> Causes:
-        weighed = probabilities_of([*hypotheses, *behind], effect_count(considered), trust)
+        weighed = probabilities_of(hypotheses, effect_count(considered), trust)
         weighed = account.ranked(given_a_gap(weighed, p_value), calibration.covered)
         left, checked = _judged(leading(weighed, calibration.covered), base, account, seed)
         verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
@@ -168,15 +168,15 @@ def _searched(
     skipping: Skipping,
     budget: Budget,
     progress: Callable[[float], None],
-) -> tuple[BaseFit, list[Hypothesis], list[Hypothesis]]:
-    """The base fit with the noise that the best hypothesis leaves, hypotheses on it, and those left far behind."""
+) -> tuple[BaseFit, list[Hypothesis]]:
+    """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
     with Search(base, considered, threads, progress, skipping, budget) as search:
         hypotheses = search.run()
     leading = search.ranked()
     if not leading:
-        return base, hypotheses, []
+        return base, hypotheses
     base = with_joint_noise(search.base, leading[0].refit)
-    return base, *search.reconsidered(base)
+    return base, search.reconsidered(base)
 
 
 def _judged(

@@ -7,8 +7,6 @@ from functools import cached_property
 from math import comb, log
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
@@ -42,21 +40,13 @@ class Hypothesis:
             The base law without causes.
         """
         lost = self.refit.not_reached
-        return self._moved(-lost, -max(lost - base.refit.not_reached, 0.0))
-
-    def left_behind(self, gained: float) -> Hypothesis:
-        """The same with so much more log evidence, as under another noise; with an unknown it was not tried there."""
-        return self._moved(gained, -np.inf)
-
-    def _moved(self, gained: float, with_unknown: float) -> Hypothesis:
-        known = self.evidence
         return replace(
             self,
             evidence=replace(
-                known,
-                log_evidence=known.log_evidence + gained,
-                log_evidence_exact=known.log_evidence_exact + gained,
-                log_evidence_unknown=known.log_evidence_unknown + with_unknown,
+                self.evidence,
+                log_evidence=self.evidence.log_evidence - lost,
+                log_evidence_exact=self.evidence.log_evidence_exact - lost,
+                log_evidence_unknown=self.evidence.log_evidence_unknown - max(lost - base.refit.not_reached, 0.0),
             ),
         )
 

@@ -296,8 +296,11 @@ def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
     """Where a gap is left after the best explanation, most of its probability goes to it jointly with an unknown."""
     best, extended = weighed[0], with_unknown(weighed[0].effects)
     moved = EVIDENCE.left_to_an_unknown * best.probability
-    known = next((explanation.probability for explanation in weighed if explanation.effects == extended), 0.0)
-    changed = [replace(best, probability=best.probability - moved), Weighed(extended, known + moved, best.hypothesis)]
+    known = next((each for each in weighed if each.effects == extended), Weighed(extended, 0.0, best.hypothesis))
+    changed = [
+        replace(best, probability=best.probability - moved),
+        replace(known, probability=known.probability + moved, hypothesis=best.hypothesis),
+    ]
     return normalised([*changed, *(explanation for explanation in weighed[1:] if explanation.effects != extended)])
 
 

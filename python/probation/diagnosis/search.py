@@ -54,8 +54,6 @@ class Search:
         Once it is spent, no further hypothesis is begun.
     found : list of Hypothesis
         The base law's first.
-    behind : list of Hypothesis
-        What other noise was not worth looking at again, as far behind the leader as it was.
     """
 
     base: BaseFit
@@ -65,7 +63,6 @@ class Search:
     skipping: Skipping = field(default_factory=Skipping)
     budget: Budget = field(default_factory=Budget)
     found: list[Hypothesis] = field(default_factory=list)
-    behind: list[Hypothesis] = field(default_factory=list)
     _phase: tuple[float, float] = (0.0, 0.5)
     _refits: int = 0
     _taken_apart: set[frozenset[Key]] = field(default_factory=set)
@@ -125,18 +122,14 @@ class Search:
             self.refitting.close()
             self.base = with_joint_noise(self.base, leading[0].refit)
             again = self._on_top_of(self.base, np.inf)
-            self.behind = self._left_behind(again, np.inf)
             self.found, self.refitting = again.found, again.refitting
 
-    def reconsidered(self, base: BaseFit) -> tuple[list[Hypothesis], list[Hypothesis]]:
-        """The leading hypotheses refitted on top of another base fit, the same law with another noise; and the others.
-
-        These are not refitted: what they leave is in units of the noise before.
-        """
+    def reconsidered(self, base: BaseFit) -> list[Hypothesis]:
+        """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
         with self._on_top_of(base, SEARCH.hopeless) as again:
             again._parts_of_the_leader()
             again._begun_anew()
-        return again.found, self._left_behind(again, SEARCH.hopeless)
+        return again.found
 
     def _on_top_of(self, base: BaseFit, hopeless: float) -> Search:
         """A search on another base fit that begins with the leading hypotheses of every number of effects."""
@@ -151,25 +144,6 @@ class Search:
             again.refitting.close()
             raise
         return again
-
-    def _left_behind(self, again: Search, hopeless: float) -> list[Hypothesis]:
-        """The best hypotheses of effects that `again` did not begin with, as far behind the best of as many as before.
-
-        None of them leads. But a right effect whose form is another may be as far behind as they are.
-        """
-        tried = {hypothesis.effects for hypothesis in self._near_the_best_of_as_many(hopeless)}
-        known = {hypothesis.effects: hypothesis.evidence.log_evidence for hypothesis in again.ranked()}
-        gained: dict[int, float] = {}
-        for hypothesis in self.ranked():
-            if hypothesis.effects in known:
-                gain = known[hypothesis.effects] - hypothesis.evidence.log_evidence
-                gained.setdefault(len(hypothesis.effects), gain)
-        behind: dict[tuple[str, ...], Hypothesis] = {}
-        for hypothesis in (*self.ranked(), *self.behind):
-            size = len(hypothesis.effects)
-            if hypothesis.effects not in tried and hypothesis.effects not in known and size in gained:
-                behind.setdefault(hypothesis.effects, hypothesis.left_behind(gained[size]))
-        return list(behind.values())
 
     def _near_the_best_of_as_many(self, hopeless: float) -> list[Hypothesis]:
         """Hypotheses no further than `hopeless` behind the best one of as many effects.
@@ -224,7 +198,7 @@ class Search:
         base = self.base
         jobs = self._jobs(base.refit, _alone(first), base.other_starts)
         begun = self._solved([*jobs, *self._jobs(base.refit, _promising_in_several(candidates))], SEARCH.first_steps)
-        begun = self._under_way([*begun, *self._each_by_itself(begun)], base.refit)
+        begun += self._each_by_itself(begun)
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind)
         keys = {cause_key(fit.model.causes[0]) for fit in _of_one_cause(running)}
@@ -234,16 +208,6 @@ class Search:
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
             self.found += self._judged(self._begun_jointly(_of_one_cause(begun)))
-
-    def _under_way(self, begun: Sequence[Refit], before: Refit) -> list[Refit]:
-        """The same, effects of the material that leave far more than is left without them taken further.
-
-        A form that takes the place of a part of the law begins far from where it ends.
-        """
-        far = SEARCH.far_start * before.chi_square
-        late = [fit for fit in begun if fit.chi_square > far and fit.model.causes[-1].effect.kind == "material"]
-        further = {id(fit.model): fit for fit in self._solved([(fit.model, fit) for fit in late], SEARCH.late_steps)}
-        return [further.get(id(fit.model), fit) for fit in begun]
 
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
         """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both.
@@ -332,8 +296,7 @@ class Search:
         ]
         behind: list[Refit] = []
         ahead: list[Refit] = []
-        for (leading, _), solved in zip(wanted, self._solved_in_groups(jobs, SEARCH.first_steps), strict=True):
-            begun = self._under_way(solved, leading.refit)
+        for (leading, _), begun in zip(wanted, self._solved_in_groups(jobs, SEARCH.first_steps), strict=True):
             least = _least_of_each_effect(begun, len(leading.causes))
             kept = {id(fit) for fit in least}
             behind += [fit for fit in begun if id(fit) not in kept]

@@ -12,12 +12,6 @@ class SearchSettings:
     """Which explanations are tried."""
 
     first_steps: int = chosen(4, "steps", "Gauss-Newton steps of a refit before it is compared with the others.")
-    far_start: float = chosen(
-        2.0,
-        "-",
-        "What an effect leaves after these steps, over what none leaves, from which on it is still on its way.",
-    )
-    late_steps: int = chosen(12, "steps", "Further steps of such a refit before it is compared.")
     in_the_race: float = chosen(
         6.0,
         "-",

@@ -24,10 +24,10 @@ class SmoothingSettings:
     )
     correlated: float = chosen(1.2, "-", "Inflation of variances from which on noise is said to be correlated.")
     white_neighbours: float = chosen(
-        1.3,
+        1.7,
         "-",
-        "Variance of fourth differences over two samples, over that of those over one, up to which a strain's noise is "
-        "white from sample to sample; 1.7 and more in averages of any length.",
+        "Variance of fourth differences over three samples, over that of those over one, up to which a strain's noise "
+        "is white from sample to sample; 2.4 to 5 in averages of two pictures and more.",
     )
     far_residual: float = chosen(8.0, "standard deviations", "Residuals beyond this are warned of.")
     rate_noise: float = chosen(

@@ -25,6 +25,9 @@ PART = 16
 
 BEYOND = 2
 
+FURTHER = 3
+"""Samples over which averages of any length show by fourth differences: 2.4 to 5 times the variance over one."""
+
 ORDERS = (2, 4)
 """Of the differences; the higher one, of fewer lags, where the lower one still sees the curve."""
 
@@ -50,7 +53,7 @@ class Averaging:
         """Of segments whose strains have one extensometer.
 
         In some of them the curve hides an average that others show; in some, a machine that wanders looks like one. So
-        it is the median of those that show something, weighted by their samples; white noise if none does.
+        it is the median of those whose noise shows, averaged or white, weighted by their samples; white if none does.
         """
         estimates = [(len(values), averaging) for values in segments if (averaging := averaging_of(values)) is not None]
         if not estimates:
@@ -63,7 +66,13 @@ class Averaging:
 
 
 def weighted_median(values: Sequence[float], weights: Sequence[float]) -> float:
-    """Between the two values next to it, where one half of the weight lies on either side."""
+    """Where one half of the weight lies on either side, between the two values next to it.
+
+    Parameters
+    ----------
+    values, weights : sequence of float, length n
+        Of at least one value; weights are positive.
+    """
     order = np.argsort(values)
     ordered, weight = np.asarray(values)[order], np.asarray(weights)[order]
     return float(np.interp(0.5, (np.cumsum(weight) - 0.5 * weight) / weight.sum(), ordered))
@@ -82,20 +91,22 @@ def averaging_of(values: FloatArray) -> Averaging | None:
     white noise, in proportion to k up to the length of an average and constant beyond. That of a smooth curve grows as
     the fourth power of k; where it does, or no level is reached, fourth differences may still show it. None if neither
     does. A machine that wanders looks like an average to second differences, whose variance then grows in proportion to
-    k, too; but fourth differences over two samples are then no larger than those over one, as those of white noise.
+    k, too; but fourth differences over three samples are then hardly larger than those over one.
 
     Parameters
     ----------
     values : ndarray, shape (n,)
         At even intervals or nearly so, without a jump of the slope.
     """
+    if len(values) <= FURTHER * ORDERS[-1]:
+        return None
     orders = ORDERS[-1:] if _neighbours_are_independent(values) else ORDERS
     estimates = [averaging for order in orders if (averaging := _by_differences(values, order)) is not None]
     return max(estimates, key=lambda estimate: estimate.inflation) if estimates else None
 
 
 def _neighbours_are_independent(values: FloatArray) -> bool:
-    near, further = (_variance(values, lag, ORDERS[-1]) for lag in (1, 2))
+    near, further = (_variance(values, lag, ORDERS[-1]) for lag in (1, FURTHER))
     return further < SMOOTHING.white_neighbours * near
 
 
