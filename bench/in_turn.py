@@ -30,11 +30,11 @@ if TYPE_CHECKING:
     from probation_studies.blind.scores.answer import Names
 
 LEAST = 1e-4
-POWERS = (0.1, 0.2, 0.3, 0.4)
+POWERS = (0.1, 0.2, 0.3, 0.4, 0.5)
 LEFT_BY_FORMS = (0.0, 0.05)
-DOUBTS = (0.0, 0.15, 0.3, 0.45)
-IN_DOUBT = (0.02, 0.05)
-STRONG_DOUBTS = (0.0, 0.15, 0.3, 0.45)
+DOUBTS = (0.0, 0.15, 0.3, 0.45, 0.6)
+IN_DOUBT = (0.01, 0.02, 0.05)
+STRONG_DOUBTS = (0.0, 0.15, 0.3)
 MOST_UNKNOWN = (0.1, 0.2, 0.4)
 HEAD = (
     "laboratory", "settings", "gaps", "mean log score", "said", "right", "level", "sets that hold the truth",

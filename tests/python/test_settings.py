@@ -65,7 +65,7 @@ NUMERICAL = {
     "detection/strain_periodic.py": {"FREQUENCIES_PER_SPACING", "GRID"},
     "detection/without_lines.py": {"PLACES"},
     "detection/tail.py": {"MANY", "_NODES", "_WEIGHTS"},
-    "smoothing/averaging.py": {"PART", "BEYOND", "ORDERS"},
+    "smoothing/averaging.py": {"PART", "BEYOND", "FURTHER", "ORDERS"},
     "smoothing/necking.py": {"REFINED"},
     "smoothing/penalised_spline.py": {"FEWEST_KNOTS", "MOST_KNOTS", "ALL_KNOTS", "LEAST_TURNS", "COARSE"},
     "smoothing/savitzky_golay.py": {"WINDOWS", "EVEN", "AT_ONCE"},
