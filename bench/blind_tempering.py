@@ -17,6 +17,7 @@ import numpy as np
 
 from bench.in_turn import LEAST, judged
 from bench.reweighed import answered, gaps_of
+from probation.errors import InputError
 from probation.inference.calibration_check import Trust
 from probation.settings.evidence import EVIDENCE
 
@@ -44,7 +45,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="a split with answers and truths")
     folder = parser.parse_args().folder
-    gaps = [gap for gap in gaps_of(folder) if gap.case.stratum != LOOK_ALIKES]
+    try:
+        gaps = [gap for gap in gaps_of(folder) if gap.case.stratum != LOOK_ALIKES]
+    except InputError as error:
+        parser.error(str(error))
     others = [
         (case, diagnosis["gap"]["p_value"])
         for case, diagnosis in answered(folder)

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.reweighed import Gap, gaps_of
+from probation.errors import InputError
 from probation.inference.calibration_check import CalibrationCheck, Trust
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind.scores.answer import UNKNOWN
@@ -172,7 +173,11 @@ def rows(gaps: Sequence[Gap]) -> list[list[str]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path, help="sealed folders of several laboratories, answered")
-    gaps = [gap for folder in parser.parse_args().folders for gap in gaps_of(folder)]
+    folders = parser.parse_args().folders
+    try:
+        gaps = [gap for folder in folders for gap in gaps_of(folder)]
+    except InputError as error:
+        parser.error(str(error))
     if len({gap.laboratory for gap in gaps}) < 2:
         parser.error("found gaps of one laboratory, expected those of two at least: one is left out")
     lines = [HEAD, ("---",) * len(HEAD), *rows(gaps)]

@@ -123,6 +123,13 @@ def gaps_of(folder: Path) -> list[Gap]:
 
 
 def gap_in(laboratory: str, case: Case, diagnosis: Mapping[str, Any]) -> Gap:
+    """A gap, from its answer.
+
+    Raises
+    ------
+    InputError
+        If the answer states no log evidence.
+    """
     causes = [each for each in diagnosis["causes"] if each.get("log_evidence") is not None]
     if not causes:
         raise InputError(f"{case.name}: found no log_evidence in its answer, expected it; solve with this version")

@@ -112,21 +112,12 @@ EFFECT = Effect(
             ),
             modification=_weights,
         ),
-        Form(
-            "cole_cole",
-            (_PART, _TIME, _COLE_COLE),
-            modification=_cole_cole,
-            starts=_starts,
-            threshold=True,
-            variant=True,
-        ),
-        Form(
-            "stretched_exponential",
-            (_PART, _TIME, _STRETCH),
-            modification=_stretched,
-            starts=_starts,
-            threshold=True,
-            variant=True,
+        *(
+            Form(name, (_PART, _TIME, shape), modification=hook, starts=_starts, threshold=True, variant=True)
+            for name, shape, hook in (
+                ("cole_cole", _COLE_COLE, _cole_cole),
+                ("stretched_exponential", _STRETCH, _stretched),
+            )
         ),
     ),
 )
