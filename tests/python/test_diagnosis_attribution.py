@@ -12,6 +12,7 @@ from probation import diagnose
 from probation.diagnosis.attribution import Attribution, EffectShare, _named, _shares, _undivided
 from probation.diagnosis.closure import Closure
 from probation.diagnosis.headline import headline
+from probation.diagnosis.result import Checks
 from probation.report.diagnosis_tables import effects_table
 from probation.wording import signed_percent
 
@@ -274,6 +275,35 @@ def test_beside_an_unknown_no_effect_is_named_that_closes_nothing(share, after):
         SimpleNamespace(held_out={}, in_fitted=True, matters=lambda tolerance: True),
     )
     assert text == "The law misses the records by 0.165 MPa (noise 0.055 MPa) and nothing in the catalogue explains it."
+
+
+def test_an_unknown_that_leads_is_no_news_where_known_effects_leave_no_more_than_noise():
+    """By what was probable beforehand it may lead twenty effects that each describe the records as well."""
+    names = ("damage", "force_drift", "force_gain", "force_offset", "self_heating")
+    left = dict(zip(names, (0.3, 0.2, 1e-9, 0.05, 0.4), strict=True))  # p-values; one leaves a gap
+    known = [
+        SimpleNamespace(effects=(name,), records=("a",), checks=Checks(None, None, p_value))
+        for name, p_value in left.items()
+    ]
+    outside = SimpleNamespace(effects=("unknown",), records=("a",), checks=None)
+
+    def told(others):
+        return headline(
+            "unexplained",
+            [outside, *others],
+            Attribution((EffectShare("unknown", 0.2, 1.0, None, None, ("a",), named=False),), (), 0.1, 0.2),
+            [("unknown",), *((name,) for name in names)],
+            SimpleNamespace(identify=Closure(0.165, 0.1, 0.055, 0.9, None, ""), records={"a": None}, held_out=None),
+            SimpleNamespace(held_out={}, in_fitted=True, matters=lambda tolerance: True),
+        )
+
+    assert told(known) == (
+        "The law misses the records by 0.165 MPa (noise 0.055 MPa): damage, drift of the force, offset of the force "
+        "or an effect outside the catalogue (and 1 more) may explain it; these tests cannot tell which."
+    )
+    assert told([each for each in known if each.effects == ("force_gain",)]) == (
+        "The law misses the records by 0.165 MPa (noise 0.055 MPa) and nothing in the catalogue explains it."
+    )
 
 
 def test_how_far_is_told_whatever_the_verdict():

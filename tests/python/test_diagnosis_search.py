@@ -200,6 +200,18 @@ def test_the_best_of_every_number_of_effects_is_judged_again(seed):
     assert {first.effects, second.effects} <= {each.effects for each in again}
 
 
+def test_many_forms_of_one_effect_leave_room_for_the_others_that_are_judged_again(monkeypatch):
+    """Of every single effect in the race the best form comes first, however few hypotheses are judged again."""
+    search, _ = searched(0)
+    alone = search.ranked(1)
+    forms_of_the_best = [each for each in search.found[1:] if each.effects == alone[0].effects]
+    search.found += forms_of_the_best * SEARCH.reconsidered
+    monkeypatch.setattr("probation.diagnosis.search.SEARCH", replace(SEARCH, reconsidered=1, slack=1e6))
+    again = [each.effects for each in search._near_the_best_of_as_many(SEARCH.hopeless) if len(each.effects) == 1]
+    assert len(alone) > 1
+    assert again == [each.effects for each in alone]
+
+
 def test_specimens_do_not_hold_what_a_strong_gap_leaves():
     """Their deviations cost little beside a gap of forty times the noise; a refit must not end where they hold it."""
     made = waiting.campaign(waiting.DIAGNOSED["strong gap"])

@@ -85,7 +85,8 @@ def headline(
         )
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)
-    clause = _cause(verdict, best, parts, answer_set, identify, len(shrink.records) - (shrink.held_out is not None))
+    count = len(shrink.records) - (shrink.held_out is not None)
+    clause = _cause(verdict, explanations, parts, answer_set, identify, count)
     if worse:
         clause = _refused(best, identify, worse)
     if gap.in_fitted:
@@ -129,13 +130,14 @@ def _small(gap: Gap, tolerance: float, noise: float) -> str:
 
 def _cause(
     verdict: Verdict,
-    best: Explanation,
+    explanations: Sequence[Explanation],
     parts: Attribution,
     answer_set: Sequence[tuple[str, ...]],
     identify: Closure,
     record_count: int,
 ) -> str:
     """What explains the gap, or does not, without a full stop."""
+    best = explanations[0]
     touched = [name for name in best.records if any(name in part.records for part in parts.effects if part.named)]
     place = f" in {listed(touched, 'and')}" if 0 < len(touched) < record_count else ""
     known = parts.named if verdict == "explained" or _close_some(parts, identify) else ()
@@ -152,6 +154,10 @@ def _cause(
                 else "what is left takes a course that noise does not: something outside the catalogue acts, too"
             )
             return f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)}), but {left}"
+        enough = [each.effects for each in explanations if each.effects in answer_set and _is_enough(each)]
+        if best.effects == (UNKNOWN,) and enough:
+            shown = _shown([*enough[:MOST_RIVALS], best.effects], len(enough))
+            return f"{shown} may explain it; these tests cannot tell which"
         return "nothing in the catalogue explains it"
     verb, pronoun = ("explains", "it") if len(known) == 1 else ("explain", "them")
     sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"
@@ -161,10 +167,19 @@ def _cause(
         )
     rivals = [effects for effects in answer_set if not {*known} <= {*effects}]
     if rivals:
-        shown = choices(rivals[:MOST_RIVALS])
-        more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
-        return f"{sentence}; these tests cannot distinguish {pronoun} from {shown}{more}"
+        return f"{sentence}; these tests cannot distinguish {pronoun} from {_shown(rivals[:MOST_RIVALS], len(rivals))}"
     return f"{sentence} (probability {chance(parts.probability)})"
+
+
+def _shown(sets: Sequence[tuple[str, ...]], count: int) -> str:
+    """Some of so many explanations, and how many more there are."""
+    return choices(sets) + (f" (and {count - MOST_RIVALS} more)" if count > MOST_RIVALS else "")
+
+
+def _is_enough(explanation: Explanation) -> bool:
+    """Whether known effects leave nothing that the test for a gap sees."""
+    known = UNKNOWN not in explanation.effects
+    return known and explanation.checks is not None and explanation.checks.remaining_p_value >= DETECTION.gap_level
 
 
 def _close_some(parts: Attribution, identify: Closure) -> bool:

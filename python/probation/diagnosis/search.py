@@ -146,20 +146,24 @@ class Search:
         return again
 
     def _near_the_best_of_as_many(self, hopeless: float) -> list[Hypothesis]:
-        """Hypotheses no further than `hopeless` behind the best one of as many effects.
+        """Hypotheses no further than `hopeless` behind the best of as many effects; every single effect in the race.
 
         What the last effects of an explanation gain may be an error of the first one's form, and count for nothing in
-        the end (`probabilities`): then what is as good as the first one by itself is as probable.
+        the end (`probabilities`): then what is as good as the first one by itself is as probable. Many forms of a few
+        effects leave room for the others: of each set of effects the best form is among them.
         """
-        best: dict[int, list[Hypothesis]] = {}
-        seen: set[frozenset[Key]] = set()
+        forms: dict[frozenset[Key], Hypothesis] = {}
         for hypothesis in sorted(self.found[1:], key=_standing, reverse=True):
-            near = best.setdefault(len(hypothesis.effects), [])
-            close = not near or _standing(hypothesis) > _standing(near[0]) - hopeless
-            if close and len(near) < SEARCH.reconsidered and _keys(hypothesis.refit) not in seen:
-                near.append(hypothesis)
-                seen.add(_keys(hypothesis.refit))
-        return [hypothesis for near in best.values() for hypothesis in near]
+            forms.setdefault(_keys(hypothesis.refit), hypothesis)
+        chosen: list[Hypothesis] = []
+        for size in dict.fromkeys(len(hypothesis.effects) for hypothesis in forms.values()):
+            sets = self.ranked(size)
+            best, most = _standing(sets[0]), len(sets) if size == 1 else SEARCH.reconsidered
+            race = max(hopeless, SEARCH.slack) if size == 1 else hopeless
+            as_many = [hypothesis for hypothesis in forms.values() if len(hypothesis.effects) == size]
+            chosen += [each for each in as_many[: SEARCH.reconsidered] if _standing(each) >= best - hopeless]
+            chosen += [each for each in sets[:most] if _standing(each) >= best - race and each not in chosen]
+        return chosen
 
     def ranked(self, size: int | None = None, *, acting_once: bool = False) -> list[Hypothesis]:
         """Hypotheses with causes, most evidence first, the best of each set of effects.

@@ -26,7 +26,7 @@ class SearchSettings:
         "so many times the best one's, plus the slack; of a strong gap that no single effect explains.",
     )
     race_gain: float = chosen(
-        14.0, "log evidence", "A cause is raced if its linearised gain is within so much of the best one's."
+        40.0, "log evidence", "A cause is raced if its linearised gain is within so much of the best one's."
     )
     race_fraction: float = chosen(0.02, "-", "For a strong gap, if it is this part of the best one's.")
     strong_gap: float = chosen(
