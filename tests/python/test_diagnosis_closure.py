@@ -38,6 +38,16 @@ def test_closure_of_records_weighs_every_sample_alike():
     assert closure_of(pieces, rng()).closure == pytest.approx(1.0 - (0.85 - 0.25) / (3.4 - 0.25))
 
 
+def test_samples_where_the_strain_jumps_do_not_decide_what_the_noise_is():
+    """Eight of 400 samples with a noise of 40 times the others': their errors count by 1/1600 each."""
+    propagated = np.zeros((400, 1))
+    propagated[200:208] = 40.0 * SIGMA
+    found = closure_of([piece(of_size(2.0 * SIGMA), of_size(SIGMA), propagated=propagated)], rng())
+    assert found.noise_MPa == pytest.approx(SIGMA, rel=0.02)
+    assert (found.before_MPa, found.after_MPa) == pytest.approx((2.0 * SIGMA, SIGMA))
+    assert found.closure == pytest.approx(1.0, abs=0.02)
+
+
 def test_closure_is_not_clipped():
     """An explanation that makes matters worse closes less than nothing; one that follows the noise, more than all."""
     assert closure_of([piece(of_size(1.0), of_size(2.0))], rng()).closure == pytest.approx(1.0 - 3.75 / 0.75)

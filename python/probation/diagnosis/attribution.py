@@ -15,6 +15,7 @@ from probation.inference.candidate import cause_key
 from probation.inference.refit import Ended, Refit, refit
 from probation.inference.unknown import UNKNOWN
 from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.mean_square import mean_square
 from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import own_deviations
 from probation.parallel import in_parallel
@@ -226,14 +227,15 @@ def _mean_square(base: BaseFit, fit: Refit) -> float:
     """Of the errors on the fitted records [MPa^2]; of the whitened ones where specimens differ."""
     if _differ(base):
         return fit.chi_square / len(fit.residual)
-    return float(np.mean(np.concatenate(_errors(base, fit)) ** 2))
+    return mean_square(_errors(base, fit), base.whitened.noises)
 
 
 def _misfit(base: BaseFit, fit: Refit | None) -> float:
     """Root mean square of the errors, each specimen having its own deviations [MPa]."""
     errors = _errors(base, base.refit if fit is None else fit)
     own = own_deviations(errors, base.whitened.noises)
-    return float(np.sqrt(np.mean(np.concatenate([error - part for error, part in zip(errors, own, strict=True)]) ** 2)))
+    left = [error - part for error, part in zip(errors, own, strict=True)]
+    return float(np.sqrt(mean_square(left, base.whitened.noises)))
 
 
 def _differ(base: BaseFit) -> bool:

@@ -75,10 +75,21 @@ class Piece:
     inside: slice | None = None
 
     @property
-    def floor(self) -> FloatArray:
-        """Variance of the noise, shape (n,) [MPa^2]."""
-        deviation = self.noise.deviation
-        return (deviation if self.inside is None else deviation[self.inside]) ** 2
+    def squares(self) -> tuple[float, float, float]:
+        """Sums of squares before and after, and of the noise's variance [MPa^2], by the samples' weights."""
+        return self._sum(self.before**2), self._sum(self.after**2), self._sum(self._own(self.noise.deviation) ** 2)
+
+    @property
+    def both(self) -> float:
+        """Sum of the products of what was there before and after [MPa^2]."""
+        return self._sum(self.before * self.after)
+
+    def _own(self, values: FloatArray) -> FloatArray:
+        return values if self.inside is None else values[self.inside]
+
+    def _sum(self, values: FloatArray) -> float:
+        weight = self._own(self.noise.weight)
+        return float(weight @ values / np.mean(weight))
 
     def blocks(self) -> list[Piece]:
         """Contiguous parts of a whole record."""
@@ -102,9 +113,7 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
     rng : numpy.random.Generator
     """
     count = np.array([len(piece.before) for piece in pieces], dtype=np.float64)
-    before = np.array([float(piece.before @ piece.before) for piece in pieces])
-    after = np.array([float(piece.after @ piece.after) for piece in pieces])
-    floor = np.array([float(np.sum(piece.floor)) for piece in pieces])
+    before, after, floor = np.transpose([piece.squares for piece in pieces])
     level = np.sqrt([piece.noise.level_variance + piece.noise.shape_variance for piece in pieces])
     total = float(count.sum())
     excess = float(before.sum() - floor.sum())
@@ -135,7 +144,7 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
         how = "noise drawn: too few records to resample them"
         left = np.maximum(before - floor, 0.0), np.maximum(after - floor, 0.0)
         # The same noise meets what there was of a gap and what is left of it, as far as they are correlated.
-        both = np.array([float(piece.before @ piece.after) for piece in pieces]) - floor
+        both = np.array([piece.both for piece in pieces]) - floor
         correlation = np.clip(both / np.maximum(np.sqrt(left[0] * left[1]), 1e-300), -1.0, 1.0)
         slow = np.array([piece.noise.slow_inflation for piece in pieces])
         common, first, apart = rng.standard_normal((3, EVIDENCE.closure_draws, len(pieces)))
@@ -154,9 +163,7 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
 
 def closure_of_blocks(parts: Sequence[Piece], rng: np.random.Generator) -> tuple[float, float]:
     """Interval from parts of one record."""
-    before = np.array([float(piece.before @ piece.before) for piece in parts])
-    after = np.array([float(piece.after @ piece.after) for piece in parts])
-    floor = np.array([float(np.sum(piece.floor)) for piece in parts])
+    before, after, floor = np.transpose([piece.squares for piece in parts])
     chosen = rng.integers(len(parts), size=(EVIDENCE.closure_draws, len(parts)))
     level = np.sqrt(parts[0].noise.level_variance + parts[0].noise.shape_variance)
     draws = _ratio(

@@ -26,6 +26,7 @@ from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
+from probation.noise.mean_square import mean_square
 from probation.noise.own_deviations import own_deviations, specimen_columns
 from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
@@ -143,9 +144,9 @@ class BaseFit:
     @property
     def misfit(self) -> tuple[float, float]:
         """Root mean square of the identify records' errors and of their noise [MPa]."""
-        errors = np.concatenate(self.errors)
-        floor = np.concatenate([noise.deviation for noise in self.whitened.noises])
-        return float(np.sqrt(np.mean(errors**2))), float(np.sqrt(np.mean(floor**2)))
+        noises = self.whitened.noises
+        floor = [noise.deviation for noise in noises]
+        return float(np.sqrt(mean_square(self.errors, noises))), float(np.sqrt(mean_square(floor, noises)))
 
     @cached_property
     def covariance(self) -> FloatArray:

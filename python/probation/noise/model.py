@@ -127,6 +127,17 @@ class NoiseModel:
         return np.asarray(np.sqrt(rough**2 + np.sum(self.propagated**2, axis=1)), dtype=np.float64)
 
     @property
+    def weight(self) -> FloatArray:
+        """What a sample counts in a mean square, shape (n,), of mean 1 [-]: less where its noise is above the median.
+
+        Where the strain jumps, its noise is many times that of the stress. By their variance a few samples there would
+        decide what is said of a whole record.
+        """
+        deviation = self.deviation
+        weight = (np.median(deviation) / np.maximum(deviation, np.median(deviation))) ** 2
+        return np.asarray(weight / np.mean(weight), dtype=np.float64)
+
+    @property
     def long_run(self) -> FloatArray:
         """What sqrt(m) times the mean of m neighbouring samples scatters by, shape (n,) [MPa]."""
         return self.arma.long_run * self.profile
