@@ -146,7 +146,11 @@ def diagnosed(case: str, known: str, campaign: Campaign, law: CallableLaw | None
     """A row of `diagnose`: what is named first by its share of the gap."""
     begun = perf_counter()
     found = diagnose(campaign, law=law, design=False)
-    shares = ", ".join(f"{each.name} {100 * each.share:.0f} %" for each in found.effects if each.named)
+    shares = ", ".join(
+        each.name if each.share is None else f"{each.name} {100 * each.share:.0f} %"
+        for each in found.effects
+        if each.named
+    )
     _, sizes = _told(found.best.effects, found.best.parameters)
     where = "" if len(found.best.records) == len(campaign.records) else f" in {', '.join(found.best.records)}"
     answer = f"{found.verdict}: {shares or 'nothing'}{where}"

@@ -1,6 +1,7 @@
 """Every effect's probability and its share of the gap; the headline names what closes it."""
 
 import json
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -27,6 +28,76 @@ def both(name, time, strain, stress):
 @pytest.fixture(scope="module")
 def two_effects():
     return diagnose(few_records(both), effects=EFFECTS, design=False)
+
+
+def wave(name, time, strain, stress):
+    """A short wave in the strain; the noise of the fast record is taken for more than its misfit."""
+    return stress * (1.0 - 0.06 * np.exp(-(((strain - 0.35) / 0.05) ** 2)) * np.sin(60.0 * strain))
+
+
+def twisted(name, time, strain, stress):
+    """A bump that no offset of the force makes."""
+    return stress + 1.5 * np.exp(-(((strain - 0.5) / 0.15) ** 2))
+
+
+@pytest.fixture(scope="module")
+def hidden():
+    """No gap above the noise, and an explanation with which the misfit in MPa grows."""
+    return diagnose(few_records(wave), effects=["damage", "grip_slip", "neck_triaxiality"], design=False)
+
+
+@pytest.fixture(scope="module")
+def nothing():
+    return diagnose(few_records(names=("slow", "fast")), effects=EFFECTS, design=False)
+
+
+@pytest.fixture(scope="module")
+def unexplained():
+    return diagnose(few_records(twisted, names=("slow", "fast")), effects=["force_offset"], design=False)
+
+
+@pytest.fixture(scope="module")
+def not_predicted():
+    campaign = few_records(offset(2.0, "middle", "fast"), held_out=("middle", "fast"))
+    return diagnose(campaign, effects=EFFECTS, design=False)
+
+
+VERDICTS = {
+    "two_effects": "explained",
+    "hidden": "unexplained",
+    "nothing": "no_gap",
+    "unexplained": "unexplained",
+    "not_predicted": "not_predicted",
+}
+
+
+@pytest.mark.parametrize("campaign", VERDICTS)
+def test_shares_are_parts_of_the_gap_or_none_whatever_the_verdict(campaign, request, tmp_path):
+    found = request.getfixturevalue(campaign)
+    assert found.verdict == VERDICTS[campaign]
+    effects = json.loads(found.to_json())["effects"]
+    assert effects
+    shares = [each["share"] for each in effects]
+    if None in shares:
+        assert {part for each in effects for part in (each["share"], each["alone"], each["in_addition"])} == {None}
+    else:
+        assert np.isfinite(shares).all()
+        outside = any(each["name"] == "unknown" and each["share"] for each in effects)
+        assert sum(shares) == pytest.approx(1.0, abs=1e-9) if outside else sum(shares) <= 1.0 + 1e-9
+    found.report(tmp_path / "page.html")
+    for text in (found.headline, found.summary(), (tmp_path / "page.html").read_text(encoding="utf-8")):
+        assert not re.search(r"\d{5,}[\d.]*\s*%", text)
+
+
+def test_a_gap_that_the_noise_hides_has_no_shares_and_every_effect_is_named(hidden):
+    identify = hidden.shrink.identify
+    assert identify.closure is None
+    assert {each.share for each in hidden.effects} == {None}
+    assert {each.name for each in hidden.effects if each.named} == {*hidden.best.effects} - {"unknown"}
+    table = effects_table(hidden)[0]
+    assert table.headings[:2] == ("effect", "probability")
+    assert "share of the gap" not in table.headings
+    assert "no shares, the gap is not above 2 standard errors of the noise" in table.caption
 
 
 def test_shares_are_means_over_the_orders_of_adding():
@@ -306,15 +377,9 @@ def test_an_unknown_that_leads_is_no_news_where_known_effects_leave_no_more_than
     )
 
 
-def test_how_far_is_told_whatever_the_verdict():
-    nothing = diagnose(few_records(names=("slow", "fast")), effects=EFFECTS, design=False)
+def test_how_far_is_told_whatever_the_verdict(nothing, unexplained):
     assert nothing.verdict == "no_gap"
     assert "How far the gap shrinks" in nothing.summary()
-
-    def twisted(name, time, strain, stress):
-        return stress + 1.5 * np.exp(-(((strain - 0.5) / 0.15) ** 2))
-
-    unexplained = diagnose(few_records(twisted, names=("slow", "fast")), effects=["force_offset"], design=False)
     assert unexplained.verdict == "unexplained"
     assert "How far the gap shrinks" in unexplained.summary()
     outside = next(each for each in unexplained.effects if each.name == "unknown")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation.diagnosis.closure import floor_error
 from probation.inference.candidate import cause_key
 from probation.inference.refit import Ended, Refit, refit
 from probation.inference.unknown import UNKNOWN
@@ -43,12 +44,13 @@ class EffectShare:
         "unknown" for what is outside the catalogue.
     probability : float
         Of the effect being in the right explanation, alone or with others.
-    share : float
+    share : float or None
         Of the gap (mean square, the noise set apart) that it closes in the best explanation: the mean over all orders
         in which its effects can be added (Shapley 1953), those that the headline names before the others. 0 for an
-        effect that is not in it.
+        effect that is not in it; None where the gap is not above `EVIDENCE.closure_gap` standard errors of the noise.
     alone, in_addition : float or None
-        What it closes alone, and in addition to all others of the best explanation; None if it is not in it.
+        What it closes alone, and in addition to all others of the best explanation; None if it is not in it, and where
+        there are no shares.
     records : tuple of str
         Ids of those that it touches.
     named : bool
@@ -59,7 +61,7 @@ class EffectShare:
 
     name: str
     probability: float
-    share: float
+    share: float | None
     alone: float | None
     in_addition: float | None
     records: tuple[str, ...]
@@ -91,7 +93,8 @@ class Attribution:
     named : tuple of str
         The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
         and leave no more than `EVIDENCE.most_left` times what it leaves, or the noise; by share. Effects that can stand
-        in for each other are named, too, where all act with `EVIDENCE.credible_set`.
+        in for each other are named, too, where all act with `EVIDENCE.credible_set`. All effects where there are no
+        shares.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float
@@ -130,21 +133,28 @@ def attribution(
     known = best.hypothesis.effects if best.effects else ()
     parts = _parts(base, best.hypothesis, known, found, threads)
     squares = _squares(base, parts)
-    floor = 1.0 if _differ(base) else closure.noise_MPa**2
-    gap = squares[()] - min(floor, squares[known])
-    closed = {part: (squares[()] - square) / max(gap, 1e-300) for part, square in squares.items()}
-    named, undivided = _named(known, closed, squares, floor), _undivided(known, closed)
-    if _probability_within({*named, *undivided}, weighed) >= EVIDENCE.credible_set:
-        named = tuple(name for name in known if name in {*named, *undivided})
-    shares = _shares(named, known, closed)
+    floor, error = _floor(base)
+    named, after = known, closure.after_MPa
+    closed: dict[tuple[str, ...], float] = {}
+    shares: dict[str, float] = {}
+    undivided: tuple[str, ...] = ()
+    if squares[()] - floor > EVIDENCE.closure_gap * error:
+        gap = squares[()] - min(floor, squares[known])
+        closed = {part: (squares[()] - square) / gap for part, square in squares.items()}
+        named, undivided = _named(known, closed, squares, floor), _undivided(known, closed)
+        if _probability_within({*named, *undivided}, weighed) >= EVIDENCE.credible_set:
+            named = tuple(name for name in known if name in {*named, *undivided})
+        if len(named) < len(known):
+            after = _misfit(base, parts[named])
+        shares = _shares(named, known, closed)
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for explanation in weighed for name in explanation.effects)]):
         probability = min(sum(explanation.probability for explanation in weighed if name in explanation.effects), 1.0)
-        inside = name in known
+        inside = name in known and bool(closed)
         if name not in best.effects and probability < EVIDENCE.probability_worth_naming:
             continue
-        share = shares.get(name, 0.0)
-        if name == UNKNOWN and UNKNOWN in best.effects:
+        share = shares.get(name, 0.0) if closed else None
+        if name == UNKNOWN and UNKNOWN in best.effects and closed:
             share = max(1.0 - closed[known], 0.0)
         entries.append(
             EffectShare(
@@ -158,11 +168,11 @@ def attribution(
                 interchangeable=name in undivided,
             )
         )
-    entries.sort(key=lambda entry: (-entry.share, -entry.probability))
+    entries.sort(key=lambda entry: (-(entry.share or 0.0), -entry.probability))
     return Attribution(
         effects=tuple(entries),
-        named=tuple(sorted(named, key=lambda name: -shares[name])),
-        after_MPa=closure.after_MPa if len(named) == len(known) else _misfit(base, parts[named]),
+        named=tuple(entry.name for entry in entries if entry.named),
+        after_MPa=after,
         probability=_probability({*named}, weighed),
     )
 
@@ -228,6 +238,16 @@ def _mean_square(base: BaseFit, fit: Refit) -> float:
     if _differ(base):
         return fit.chi_square / len(fit.residual)
     return mean_square(_errors(base, fit), base.whitened.noises)
+
+
+def _floor(base: BaseFit) -> tuple[float, float]:
+    """Mean square of the noise and its standard error, in the units of `_squares`."""
+    if _differ(base):
+        return 1.0, float(np.sqrt(2.0 / len(base.refit.residual)))
+    noises = base.whitened.noises
+    count = np.array([len(noise) for noise in noises], dtype=np.float64)
+    floor = np.array([float(noise.weight @ noise.deviation**2) for noise in noises])
+    return float(floor.sum() / count.sum()), floor_error(floor, count, noises) / float(count.sum())
 
 
 def _misfit(base: BaseFit, fit: Refit | None) -> float:

@@ -114,18 +114,17 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
     """
     count = np.array([len(piece.before) for piece in pieces], dtype=np.float64)
     before, after, floor = np.transpose([piece.squares for piece in pieces])
-    level = np.sqrt([piece.noise.level_variance + piece.noise.shape_variance for piece in pieces])
+    noises = [piece.noise for piece in pieces]
+    level = np.sqrt([noise.level_variance + noise.shape_variance for noise in noises])
     total = float(count.sum())
     excess = float(before.sum() - floor.sum())
-    # Sum of squares of correlated noise scatters as if there were fewer samples.
-    own = np.sqrt(2.0 * np.array([piece.noise.square_inflation for piece in pieces]) / count) * floor
-    error = float(np.sqrt(np.sum(own**2 + (level * floor) ** 2)))
+    own = _own_error(floor, count, noises)
     known = (
         float(np.sqrt(before.sum() / total)),
         float(np.sqrt(after.sum() / total)),
         float(np.sqrt(floor.sum() / total)),
     )
-    if not excess > EVIDENCE.closure_gap * error:
+    if not excess > EVIDENCE.closure_gap * floor_error(floor, count, noises):
         return Closure(
             *known, None, None, f"the gap is not above {EVIDENCE.closure_gap:g} standard errors of the noise"
         )
@@ -171,6 +170,26 @@ def closure_of_blocks(parts: Sequence[Piece], rng: np.random.Generator) -> tuple
     )
     value = 1.0 - float(after.sum() - floor.sum()) / float(before.sum() - floor.sum())
     return _interval(draws, value, len(parts))
+
+
+def floor_error(floor: FloatArray, count: FloatArray, noises: Sequence[NoiseModel]) -> float:
+    """Standard error of the noise's sum of squares over records, of its level's error and its own scatter [MPa^2].
+
+    Parameters
+    ----------
+    floor : ndarray, shape (n_records,) [MPa^2]
+        The sum in each of them.
+    count : ndarray, shape (n_records,)
+        Of samples.
+    noises : sequence of NoiseModel
+    """
+    level = np.array([noise.level_variance + noise.shape_variance for noise in noises])
+    return float(np.sqrt(np.sum(_own_error(floor, count, noises) ** 2 + level * floor**2)))
+
+
+def _own_error(floor: FloatArray, count: FloatArray, noises: Sequence[NoiseModel]) -> FloatArray:
+    """Its own scatter: squares of correlated noise scatter as if there were fewer samples."""
+    return np.asarray(np.sqrt(2.0 * np.array([noise.square_inflation for noise in noises]) / count) * floor)
 
 
 def _ratio(before: FloatArray, after: FloatArray, floor: FloatArray) -> FloatArray:

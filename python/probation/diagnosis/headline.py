@@ -184,7 +184,7 @@ def _is_enough(explanation: Explanation) -> bool:
 
 def _close_some(parts: Attribution, identify: Closure) -> bool:
     """Whether the named effects close a part of the gap that is worth naming in addition to an unknown one."""
-    share = sum(part.share for part in parts.effects if part.named)
+    share = sum(part.share or 0.0 for part in parts.effects if part.named)
     return share >= EVIDENCE.share_worth_naming and parts.after_MPa < identify.before_MPa
 
 
@@ -200,9 +200,13 @@ def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> st
 def _with_shares(parts: Attribution) -> str:
     """What is named, and where it is more than one effect, which closes how much: "damage (81 % of the gap) and …".
 
-    An effect that others can stand in for has no share of its own.
+    An effect that others can stand in for has no share of its own; none has one of a gap that the noise hides.
     """
-    shares = {part.name: signed_percent(part.share) for part in parts.effects if part.name not in parts.undivided}
+    shares = {
+        part.name: signed_percent(part.share)
+        for part in parts.effects
+        if part.share is not None and part.name not in parts.undivided
+    }
     words, of_the_gap = [], " of the gap"
     for name in parts.named:
         share = ""

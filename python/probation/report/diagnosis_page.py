@@ -100,7 +100,9 @@ def _how_far(diagnosis: Diagnosis) -> str:
         )
     if not mended_by(diagnosis):
         ceiling = (
-            "" if shrink.ceiling is None else f"; any smooth correction could close {closed(shrink.ceiling)} of it"
+            ""
+            if shrink.ceiling is None or shrink.ceiling.closure is None
+            else f"; any smooth correction could close {closed(shrink.ceiling)} of it"
         )
         return f"no effect of the catalogue closes the gap{ceiling}."
     text = (

@@ -18,6 +18,7 @@ from probation.report.diagnosis_words import (
     span_text,
 )
 from probation.report.table import Table
+from probation.settings.evidence import EVIDENCE
 from probation.wording import chance, percent, plus_minus, signed_percent
 
 if TYPE_CHECKING:
@@ -111,20 +112,24 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
         (
             title(effect.name),
             chance(effect.probability),
-            signed_percent(effect.share) if effect.name in diagnosis.best.effects else "–",
-            "" if effect.alone is None else signed_percent(effect.alone),
-            "" if effect.in_addition is None else signed_percent(effect.in_addition),
+            "–" if effect.name not in diagnosis.best.effects else _share(effect.share),
+            _share(effect.alone),
+            _share(effect.in_addition),
             "" if set(effect.records) >= {*fitted} else ", ".join(names.get(name, name) for name in effect.records),
         )
         for effect in diagnosis.effects
     ]
     empty = {at for at in (3, 4, 5) if not any(row[at] for row in rows)}
-    kept = _kept([max(effect.probability, effect.share) for effect in diagnosis.effects], most)
+    kept = _kept([max(effect.probability, effect.share or 0.0) for effect in diagnosis.effects], most)
+    closing = ", and what it closes of the gap (–: not in the best explanation)"
+    if any(effect.share is None for effect in diagnosis.effects):
+        empty |= {2}
+        closing = f"; no shares, the gap is not above {EVIDENCE.closure_gap:g} standard errors of the noise"
     headings = ("effect", "probability", "share of the gap", "alone", "in addition to the others", "only in")
     table = Table(
         _without(headings, empty),
         tuple(_without(row, empty) for row in rows[:kept]),
-        "Effect by effect: how probable it is, and what it closes of the gap (–: not in the best explanation)",
+        f"Effect by effect: how probable it is{closing}",
     )
     return table, _rest([effect.probability for effect in diagnosis.effects[kept:]], "effect")
 
@@ -212,6 +217,10 @@ def mended_by(diagnosis: Diagnosis) -> str:
         title for effect, title in zip(diagnosis.best.effects, diagnosis.best.titles, strict=False) if effect in known
     )
     return explanation_name(replace(diagnosis.best, effects=known, titles=titles), diagnosis) if known else ""
+
+
+def _share(part: float | None) -> str:
+    return "" if part is None else signed_percent(part)
 
 
 def _without(row: tuple[str, ...], left_out: set[int]) -> tuple[str, ...]:
