@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from textwrap import fill
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -93,6 +93,20 @@ def signed_percent(part: float) -> str:
 def chance(probability: float) -> str:
     """A probability that came out: "91 %", "< 1 %"; rounded to 1 it is still no certainty: "> 99 %"."""
     return "> 99 %" if probability > 0.99 else percent(probability)
+
+
+def change(before: float, after: float, would: Literal["", "would "] = "") -> str:
+    """What a misfit does [MPa], to three significant digits: "falls from 1.31 to 0.043 MPa", "would stay at 1.31 MPa".
+
+    Parameters
+    ----------
+    would : {"", "would "}
+    """
+    old, new = f"{before:.3g}", f"{after:.3g}"
+    s = "" if would else "s"
+    if old == new:
+        return f"{would}stay{s} at {new} MPa"
+    return f"{would}{'fall' if after < before else 'rise'}{s} from {old} to {new} MPa"
 
 
 def sentence(text: str) -> str:

@@ -100,6 +100,24 @@ def test_a_gap_that_the_noise_hides_has_no_shares_and_every_effect_is_named(hidd
     assert "no shares, the gap is not above 2 standard errors of the noise" in table.caption
 
 
+def test_no_misfit_is_said_to_fall_that_grows(hidden, tmp_path):
+    identify = hidden.shrink.identify
+    assert identify.after_MPa > identify.before_MPa
+    assert "falls" not in hidden.headline
+    hidden.report(tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert f"rises from {identify.before_MPa:.3g} to {identify.after_MPa:.3g} MPa rms" in page
+
+
+def test_all_effects_are_named_where_the_misfit_falls_with_all_but_not_with_the_fewest(monkeypatch):
+    monkeypatch.setattr("probation.diagnosis.attribution._named", lambda known, *_: known[:1])
+    monkeypatch.setattr("probation.diagnosis.attribution._misfit", lambda *_: 99.0)
+    found = diagnose(few_records(both), effects=EFFECTS, design=False)
+    assert [each.name for each in found.effects if each.named] == ["damage", "force_offset"]
+    identify = found.shrink.identify
+    assert f"the misfit falls from {identify.before_MPa:.3g} to {identify.after_MPa:.3g} MPa" in found.headline
+
+
 def test_shares_are_means_over_the_orders_of_adding():
     """Alone a closes 0.6, b 0.5, both 0.9: a adds 0.6 or 0.4, b 0.5 or 0.3."""
     closed = {(): 0.0, ("a",): 0.6, ("b",): 0.5, ("a", "b"): 0.9}
@@ -245,7 +263,9 @@ def told(parts, verdict="explained", noise=0.05):
 )
 def test_what_is_left_below_the_noise_is_told_by_its_course(noise, left):
     parts = attributed(closing((0.99, 0.9, 0.9), (0.995, 0.995, 0.995), 0.999))
-    assert told(parts, "unexplained", noise).endswith(left)
+    text = told(parts, "unexplained", noise)
+    assert text.endswith(left)
+    assert "is part of it (with it alone the misfit falls from 4 to 0.2 MPa" in text
 
 
 @pytest.mark.parametrize("verdict", ["explained", "unexplained"])

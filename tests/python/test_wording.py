@@ -2,7 +2,7 @@
 
 import pytest
 
-from probation.wording import chance, percentage, plus_minus, times
+from probation.wording import chance, change, percentage, plus_minus, times
 
 
 @pytest.mark.parametrize(
@@ -37,3 +37,18 @@ def test_a_probability_that_came_out_is_never_a_certainty(probability: float, te
 @pytest.mark.parametrize(("ratio", "text"), [(0.9624, "0.962"), (316.4, "316"), (1848.0, "1850"), (2.5e6, "2500000")])
 def test_how_many_times_has_no_exponent(ratio: float, text: str):
     assert times(ratio) == text
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "text"),
+    [
+        (4.0, 0.2, "falls from 4 to 0.2 MPa"),
+        (0.6646, 0.7651, "rises from 0.665 to 0.765 MPa"),
+        (0.16451, 0.16449, "falls from 0.165 to 0.164 MPa"),
+        (0.1652, 0.1651, "stays at 0.165 MPa"),
+    ],
+)
+def test_a_misfit_falls_only_where_one_sees_it_fall(before: float, after: float, text: str):
+    assert change(before, after) == text
+    verb, rest = text.split(" ", 1)
+    assert change(before, after, "would ") == f"would {verb.removesuffix('s')} {rest}"

@@ -94,7 +94,7 @@ class Attribution:
         The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
         and leave no more than `EVIDENCE.most_left` times what it leaves, or the noise; by share. Effects that can stand
         in for each other are named, too, where all act with `EVIDENCE.credible_set`. All effects where there are no
-        shares.
+        shares, and where the misfit in MPa falls with the fewest but not with all, or the other way round.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float
@@ -146,6 +146,8 @@ def attribution(
             named = tuple(name for name in known if name in {*named, *undivided})
         if len(named) < len(known):
             after = _misfit(base, parts[named])
+            if (after < closure.before_MPa) != (closure.after_MPa < closure.before_MPa):
+                named, after = known, closure.after_MPa
         shares = _shares(named, known, closed)
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for explanation in weighed for name in explanation.effects)]):

@@ -10,7 +10,7 @@ from probation.inference.unknown import UNKNOWN
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.detection import DETECTION
 from probation.settings.evidence import EVIDENCE
-from probation.wording import chance, listed, percent, percentage, signed_percent
+from probation.wording import chance, change, listed, percent, percentage, signed_percent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -141,13 +141,13 @@ def _cause(
     touched = [name for name in best.records if any(name in part.records for part in parts.effects if part.named)]
     place = f" in {listed(touched, 'and')}" if 0 < len(touched) < record_count else ""
     known = parts.named if verdict == "explained" or _close_some(parts, identify) else ()
-    fall = (
-        f"the misfit falls from {identify.before_MPa:.3g} to {parts.after_MPa:.3g} MPa, "
-        f"the noise being {identify.noise_MPa:.2g} MPa"
-    )
+    fall = f"the misfit {change(identify.before_MPa, parts.after_MPa)}, the noise being {identify.noise_MPa:.2g} MPa"
+    pronoun = "it" if len(known) == 1 else "them"
     if verdict == "unexplained":
         if known:
             verb = "is" if len(known) == 1 else "are"
+            if {*best.effects} - {*known} - {UNKNOWN}:  # `shrink` is with all of them
+                fall = f"with {pronoun} alone {fall}"
             left = (
                 "something outside the catalogue is left"
                 if parts.after_MPa > identify.noise_MPa
@@ -159,7 +159,7 @@ def _cause(
             shown = _shown([*enough[:MOST_RIVALS], best.effects], len(enough))
             return f"{shown} may explain it; these tests cannot tell which"
         return "nothing in the catalogue explains it"
-    verb, pronoun = ("explains", "it") if len(known) == 1 else ("explain", "them")
+    verb = "explains" if len(known) == 1 else "explain"
     sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"
     if not {*best.effects} <= {*known, *parts.undivided}:
         sentence += (
@@ -192,8 +192,9 @@ def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> st
     """Of an explanation that the held-out records contradict."""
     known = titles([name for name in best.effects if name != UNKNOWN])
     return (
-        f"nothing in the catalogue explains it; with {known} the misfit would fall from {identify.before_MPa:.3g} to "
-        f"{identify.after_MPa:.3g} MPa, but {' and '.join(record.text for record in worse)}"
+        f"nothing in the catalogue explains it; with {known} the misfit "
+        f"{change(identify.before_MPa, identify.after_MPa, 'would ')}, "
+        f"but {' and '.join(record.text for record in worse)}"
     )
 
 

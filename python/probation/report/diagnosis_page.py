@@ -30,7 +30,7 @@ from probation.report.remainder_page import remainder_section
 from probation.report.residual_map import residual_map
 from probation.report.skipped_words import skipped_lines
 from probation.report.table import Table
-from probation.wording import chance, listed, percent, sentence
+from probation.wording import chance, change, listed, percent, sentence
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -106,8 +106,9 @@ def _how_far(diagnosis: Diagnosis) -> str:
         )
         return f"no effect of the catalogue closes the gap{ceiling}."
     text = (
-        f"with {mended_by(diagnosis)} the error of the fitted records falls from {shrink.identify.before_MPa:.3g} to "
-        f"{shrink.identify.after_MPa:.3g} MPa rms; the noise is {shrink.identify.noise_MPa:.3g} MPa"
+        f"with {mended_by(diagnosis)} the error of the fitted records "
+        f"{change(shrink.identify.before_MPa, shrink.identify.after_MPa)} rms; "
+        f"the noise is {shrink.identify.noise_MPa:.3g} MPa"
     )
     if shrink.held_out is None:
         none = "The only record that was held out is among them" if diagnosis.held_out else "No record was held out"
