@@ -10,6 +10,8 @@ import argparse
 import json
 from pathlib import Path
 
+from bench.laboratories import calibration_error
+
 STRATA = {
     "none": "none",
     "single": "one effect",
@@ -60,13 +62,13 @@ def strata(board: dict) -> list[str]:
 
 
 def beside(boards: dict) -> list[str]:
-    head = "| answers | false alarms | resolvable gaps named | gaps named | P(truth), gaps | ECE |"
+    head = "| answers | false alarms | resolvable gaps named | gaps named | P(truth), gaps | calibration error |"
     lines = [head, "|---|---|---|---|---|---|"]
     for name, board in boards.items():
-        gaps, ece = board["gaps"], board["reliability"]["ece"]
+        gaps = board["gaps"]
         cells = (
             name, part(board["false_alarms"]), part(board["resolvable"]["top1"]), part(gaps["top1"]),
-            number(gaps["probability_on_truth"], 2), number(ece, 3),
+            number(gaps["probability_on_truth"], 2), calibration_error(board["reliability"]),
         )  # fmt: skip
         lines.append(f"| {' | '.join(cells)} |")
     return lines

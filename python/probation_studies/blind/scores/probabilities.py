@@ -53,7 +53,7 @@ def reliability(cases: Sequence[Case]) -> dict[str, object]:
     said = np.array([min(max(case.answer.probability[case.answer.top], 0.0), 1.0) for case in cases])
     right = np.array([case.right for case in cases], dtype=bool)
     if not len(said):
-        return {"bins": [], "ece": None, "ece_interval95": None, "ece_limit95": None}
+        return {"bins": [], "ece": None, "ece_limit95": None}
     bins = np.minimum((said * _BINS).astype(int), _BINS - 1)
     drawn = np.random.default_rng(0).uniform(size=(_DRAWS, len(said))) < said
     curve: list[dict[str, object]] = []
@@ -68,11 +68,7 @@ def reliability(cases: Sequence[Case]) -> dict[str, object]:
             }
         )
     limit = float(np.quantile([_calibration_error(said, each, bins) for each in drawn], 0.95))
-    error = _calibration_error(said, right, bins)
-    resampled = np.random.default_rng(1).integers(len(said), size=(_DRAWS, len(said)))
-    ends = np.quantile([_calibration_error(said[some], right[some], bins[some]) for some in resampled], [0.975, 0.025])
-    interval = np.clip(2.0 * error - ends, 0.0, 1.0).tolist()
-    return {"bins": curve, "ece": error, "ece_interval95": interval, "ece_limit95": limit}
+    return {"bins": curve, "ece": _calibration_error(said, right, bins), "ece_limit95": limit}
 
 
 def _calibration_error(said: NDArray[np.float64], right: NDArray[np.bool_], bins: NDArray[np.int64]) -> float:
