@@ -1,8 +1,9 @@
 """Rows of docs/laboratories.md, from what `probation blind score --json` wrote.
 
 `python -m bench.laboratories SCORE.json…`: one row for each; `--by-strain-noise`: one row for each class of strain
-noise that it holds. Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth.
-Beside the calibration error stands what a calibrated solver with the same probabilities stays below in 95 % of repeats.
+noise that it holds. Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth,
+bootstrapped ones of the answer sets' size, which older scores do not hold. Beside the calibration error stands what a
+calibrated solver with the same probabilities stays below in 95 % of repeats.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def row(content: dict) -> list[str]:
         rate(resolvable["pair"]["top1"]),
         rate(board["unknown"]["found_clear"]),
         rate(sets["coverage"]),
-        number(size / least if size and least else None),
+        between(size / least if size and least else None, sets.get("over_oracle", {}).get("interval95")),
         calibration_error(board["reliability"]),
         f"{between(held_out['value'], held_out['interval95'])}, n = {held_out['n']}",
     ]

@@ -111,6 +111,18 @@ def test_a_mean_has_students_interval():
     assert Average.mean([1.0, 2.0, 3.0]).interval == pytest.approx((2.0 - reach, 2.0 + reach))
 
 
+def test_a_ratio_of_means_is_bootstrapped_by_campaign():
+    """Pairs of one ratio leave nothing open; of 400 the normal approximation is near: s / sqrt(n) of over - r under."""
+    assert Average.ratio([2.0, 4.0, 8.0] * 2, [1.0, 2.0, 4.0] * 2).interval == pytest.approx((2.0, 2.0))
+    over, under = np.random.default_rng(1).uniform(1.0, [[3.0], [2.0]], size=(2, 400))
+    found = Average.ratio(over.tolist(), under.tolist())
+    reach = 1.96 * np.std(over - found.value * under) / np.sqrt(400) / np.mean(under)
+    assert found.value == pytest.approx(np.mean(over) / np.mean(under))
+    assert found.interval == pytest.approx((found.value - reach, found.value + reach), abs=0.15 * reach)
+    assert Average.ratio([1.0] * 5, [1.0] * 5).interval is None
+    assert Average.ratio([1.0], [0.0]).value is None
+
+
 def test_closure_over_the_oracles_does_not_hang_on_the_noise_that_was_estimated():
     """Held out, told: (100 x 0.04 + 300 x 0.16) / 400 = 0.13; drawn: (100 x 0.01 + 300 x 0.09) / 400 = 0.07 MPa^2.
 

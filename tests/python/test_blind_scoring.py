@@ -150,6 +150,7 @@ def test_a_row_of_the_laboratories_page_is_made_of_a_score():
     assert cells[:3] == ["university", str(len(MIXED)), "3"]
     assert cells[HEAD.index("single, resolvable: named")].startswith("100 % of ")
     assert cells[HEAD.index("P of the truth")] == "1.00 (1.00 to 1.00)"
+    assert cells[HEAD.index("their size, over the oracle's")] == "1.00 (1.00 to 1.00)"
     assert cells[HEAD.index("calibration error")] == "0.000; below 0.000 if calibrated"
     assert cells[HEAD.index("held-out explained fraction, over the oracle's")] == "–, n = 0"
 

@@ -164,10 +164,9 @@ def _beside_oracle(group: Plain) -> Aim:
 
 
 def _size(name: str, group: Plain) -> Aim:
-    found = _part(group, "answer_set")
-    own, oracle = (cast("float | None", found[each]) for each in ("mean_size", "oracle_mean_size"))
-    value = None if own is None or not oracle else own / oracle
-    return Aim(name, cast("int", group["n"]), value, None, high=1.5, percent=False)
+    over = _part(_part(group, "answer_set"), "over_oracle")
+    ends = _ends(over["interval95"])
+    return Aim(name, cast("int", over["n"]), cast("float | None", over["value"]), ends, high=1.5, percent=False)
 
 
 def _calibration(board: Plain) -> Aim:

@@ -93,6 +93,7 @@ def _grouped(cases: Sequence[Case], key: Callable[[Case], str], names: Sequence[
 def _group(cases: Sequence[Case]) -> dict[str, object]:
     """Scores of one group."""
     on_truth = Average.mean([case.probability for case in cases])
+    size = [len(case.answer.answer_set) for case in cases]
     oracle_size = [len(cast("list[object]", case.oracle["answer_set"])) for case in cases]
     return {
         "n": len(cases),
@@ -102,8 +103,9 @@ def _group(cases: Sequence[Case]) -> dict[str, object]:
         "probability_on_truth_interval95": on_truth.ends,
         "answer_set": {
             "coverage": Rate.of(case.covered for case in cases).plain(),
-            "mean_size": _mean([len(case.answer.answer_set) for case in cases]),
+            "mean_size": _mean(size),
             "oracle_mean_size": _mean(oracle_size),
+            "over_oracle": Average.ratio(size, oracle_size).plain(),
         },
         "log_score": log_score(cases),
         "brier_score": brier_score(cases),

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import beta, binom, t
 
+_DRAWS = 2000
+
 
 @dataclass(frozen=True)
 class Rate:
@@ -47,7 +49,7 @@ class Rate:
 
 @dataclass(frozen=True)
 class Average:
-    """A mean or a median of n numbers, with an interval of 95 %; None where there are too few."""
+    """A mean, a median or a ratio of n numbers, with an interval of 95 %; None where there are too few."""
 
     n: int
     value: float | None
@@ -75,6 +77,21 @@ class Average:
         below = int(binom.ppf(0.025, n, 0.5))  # so many lie below the lower end: P(fewer below the median) <= 2.5 %
         ends = (float(ranked[below - 1]), float(ranked[n - below])) if below else None
         return cls(n, float(np.median(ranked)), ends)
+
+    @classmethod
+    def ratio(cls, over: Sequence[float], under: Sequence[float]) -> Average:
+        """The ratio of two means over the same n campaigns; None where the lower one is 0.
+
+        Bootstrapped by campaign, percentiles; of six on. Of 26 answer sets such an interval holds the ratio in 88 to
+        93 % of repeats.
+        """
+        n = len(over)
+        if not sum(under):
+            return cls(n, None, None)
+        pairs = np.array([over, under], dtype=np.float64)
+        drawn = pairs[:, np.random.default_rng(0).integers(n, size=(_DRAWS, n))].sum(axis=2)
+        low, high = np.quantile(drawn[0] / drawn[1], [0.025, 0.975])
+        return cls(n, float(pairs[0].sum() / pairs[1].sum()), (float(low), float(high)) if n > 5 else None)
 
     @property
     def ends(self) -> list[float] | None:
