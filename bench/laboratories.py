@@ -2,8 +2,9 @@
 
 `python -m bench.laboratories SCORE.json…`: one row for each; `--by-strain-noise`: one row for each class of strain
 noise that it holds. Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth,
-bootstrapped ones of the answer sets' size, which older scores do not hold. Beside the calibration error stands what a
-calibrated solver with the same probabilities stays below in 95 % of repeats.
+bootstrapped ones of the answer sets' size; older scores hold neither these nor alarms where replicates show how far
+specimens differ. Beside the calibration error stands what a calibrated solver with the same probabilities stays below
+in 95 % of repeats.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from pathlib import Path
 
 HEAD = (
     "laboratory", "campaigns", "seeds", "false alarms, specimens alike", "false alarms, specimens differ",
-    "false alarms, strain noise to 5e-4",
+    "false alarms, scatter from replicates", "false alarms, strain noise to 5e-4",
     "single, resolvable: named", "P of the truth", "pairs, resolvable: named", "unknown found, √λ left of 8",
     "95 % sets that hold the gap's truth", "their size, over the oracle's", "calibration error",
     "held-out explained fraction, over the oracle's",
@@ -38,6 +39,7 @@ def row(content: dict) -> list[str]:
         seeds,
         rate(nulls["alike"]),
         rate(nulls["differing"]),
+        rate(nulls.get("replicates")),
         rate(nulls["strain_noise_to_5e-4"]),
         rate(single["top1"]),
         between(single["probability_on_truth"], single["probability_on_truth_interval95"]),
@@ -65,9 +67,9 @@ def source(content: dict) -> tuple[str, str]:
     return str(content.get("laboratory", "own")), ", ".join(str(seed) for seed in content["seeds"])
 
 
-def rate(plain: dict) -> str:
+def rate(plain: dict | None) -> str:
     """Of n, with its interval."""
-    if not plain["n"]:
+    if not plain or not plain["n"]:
         return "–"
     low, high = (100.0 * each for each in plain["interval95"])
     return f"{100.0 * plain['rate']:.0f} % of {plain['n']} ({low:.0f} to {high:.0f})"

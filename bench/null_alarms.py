@@ -3,7 +3,7 @@
 `python -m bench.null_alarms FOLDER…`: sealed folders with truths; nulls and replicates are asked, others passed over.
 About two seconds of CPU each. What is found is written to `gaps.jsonl` of each folder as it comes, with the commit
 that it comes from: a run that was ended goes on where it was. Intervals are exact, of 95 %. Of several folders all
-together follow, by the noise of the strain.
+together follow, and these by the noise of the strain.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from probation.effects.visible import visible
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.gap import find_gap
+from probation.inference.scatter import replicates
 from probation.inference.thinning import thin
 from probation.origin import commit
 from probation.records.campaign import Campaign
@@ -33,12 +34,20 @@ from probation_studies.blind.scores.intervals import Rate
 from probation_studies.blind.seal import read_truth
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
 STRAIN_NOISES = {"to 2e-5": 2e-5, "to 2e-4": 2e-4, "to 5e-4": 5e-4, "above": np.inf}
 """Classes of the recorded strain's standard deviation, and the most of each."""
 
-HEAD = ("laboratory", "commit", "seed", "specimens alike", "specimens differ", "strain noise to 5e-4")
+KINDS = {
+    "alike": "specimens alike",
+    "differing": "specimens differ",
+    "replicates": "scatter from replicates",
+    "strain_noise_to_5e-4": "strain noise to 5e-4",
+}
+"""Of nulls, and what their columns are called."""
+
+HEAD = ("laboratory", "commit", "seed", *KINDS.values())
 
 
 def gap_in(folder: Path) -> dict[str, object]:
@@ -56,6 +65,12 @@ def gap_in(folder: Path) -> dict[str, object]:
     }
 
 
+def scatter_from_replicates(folder: Path) -> bool:
+    """Whether it is left to replicates to show how far specimens differ, and there are some."""
+    campaign = Campaign.load(folder)
+    return campaign.specimens.scatter == "estimate" and bool(replicates(campaign.identify))
+
+
 def asked(layout: Layout) -> list[tuple[Case, Mapping[str, object]]]:
     """Every null, and what was found in it."""
     path = layout.folder / "gaps.jsonl"
@@ -70,21 +85,20 @@ def asked(layout: Layout) -> list[tuple[Case, Mapping[str, object]]]:
             found[case.name] = {"campaign": case.name, **gap_in(layout.campaigns / case.name)}
             with path.open("a") as file:
                 print(json.dumps(found[case.name]), file=file)
-        answer = replace(NO_ANSWER, gap=bool(found[case.name]["gap"]))
+        scatter = "replicates" if scatter_from_replicates(layout.campaigns / case.name) else None
+        answer = replace(NO_ANSWER, gap=bool(found[case.name]["gap"]), scatter=scatter)
         nulls.append((replace(case, answer=answer), found[case.name]))
     return nulls
 
 
-def row(layout: Layout) -> str:
-    """Its row."""
-    nulls, (published, _) = asked(layout), layout.published()
+def row(laboratory: str, nulls: Sequence[tuple[Case, Mapping[str, object]]]) -> str:
+    """Of some nulls, and what was found in them."""
     alarms = false_alarms([case for case, _ in nulls])
-    commits = sorted({str(found["commit"]) for _, found in nulls})
     cells = (
-        str(published.get("laboratory", "own")),
-        ", ".join(commits),
+        laboratory,
+        ", ".join(sorted({str(found["commit"]) for _, found in nulls})),
         ", ".join(str(each) for each in sorted({case.truth["seed"] for case, _ in nulls})),
-        *(rate(alarms[kind]) for kind in ("alike", "differing", "strain_noise_to_5e-4")),
+        *(rate(alarms[kind]) for kind in KINDS),
     )
     return f"| {' | '.join(cells)} |"
 
@@ -94,11 +108,15 @@ def main() -> None:
     parser.add_argument("folders", nargs="+", type=Path, help="sealed folders of one laboratory each")
     layouts = [Layout(folder) for folder in parser.parse_args().folders]
     print(f"| {' | '.join(HEAD)} |\n| {' | '.join(['---'] * len(HEAD))} |")
+    together = []
     for layout in layouts:
-        print(row(layout), flush=True)
+        nulls, (published, _) = asked(layout), layout.published()
+        print(row(str(published.get("laboratory", "own")), nulls), flush=True)
+        together += nulls
     if len(layouts) > 1:
-        nulls = [case for layout in layouts for case, _ in asked(layout)]
-        for name, cases in [("all", nulls), *by_strain_noise(nulls, STRAIN_NOISES).items()]:
+        print(row("all", together))
+        every = [case for case, _ in together]
+        for name, cases in [("all", every), *by_strain_noise(every, STRAIN_NOISES).items()]:
             print(f"strain noise {name}: {rate(Rate.of(case.answer.gap for case in cases).plain())}")
 
 

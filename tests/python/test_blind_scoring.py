@@ -116,15 +116,20 @@ def test_a_perfect_solver_scores_everything():
 
 
 def test_false_alarms_are_counted_apart_where_specimens_differ_and_where_strains_are_noisy():
-    """Replicates of a null are nulls; a truth says in its own keys or in its noise's by how much specimens differ."""
+    """Replicates of a null are nulls; a truth says in its own keys or in its noise's by how much specimens differ.
+
+    An answer says whether it has that from replicates.
+    """
     kinds = ({"noise": {"strain": 1e-3}}, {"scatter": {"modulus": 0.02}, "stratum": "replicates"})
     kinds += ({"noise": {"strain": 1e-4, "scatter_tau": 0.01}}, {"scatter": None, "noise": {"scatter_tau": 0.0}})
     alarm = _diagnosis({("damage",): 0.9, ("unknown",): 0.1})
-    found = board(_cases([_truth() | kind for kind in kinds], lambda _: alarm))
+    shown = alarm | {"scatter": {"alpha": {"relative": 0.02, "source": "replicates"}}}
+    found = board(_cases([_truth() | kind for kind in kinds], lambda truth: shown if truth.get("scatter") else alarm))
     assert found["by_stratum"]["none"]["n"] == 4
     assert {name: each["n"] for name, each in found["false_alarms_by_kind"].items()} == {
         "alike": 2,
         "differing": 2,
+        "replicates": 1,
         "strain_noise_to_5e-4": 3,
     }
     assert all(each["rate"] == 1.0 for each in found["false_alarms_by_kind"].values())

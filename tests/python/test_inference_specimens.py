@@ -74,4 +74,9 @@ def test_replicates_have_one_strain_history_though_one_may_break_earlier():
         record("d", 2e-3),
         record("e", 1e-3, 0.3),
     ]
-    assert replicates(records) == [[0, 1, 2], [3], [4]]
+    assert replicates(records) == [[0, 1, 2]]
+
+
+def test_a_test_of_the_same_specimen_again_is_no_replicate():
+    assert replicates([record("a", 1e-3, specimen="A"), record("b", 1e-3, specimen="A")]) == []
+    assert replicates([record("a", 1e-3, specimen="A"), record("b", 1e-3)]) == [[0, 1]]

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from probation.inference.protocol import GapLaw
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
+    from probation.records.record import Record
     from probation.records.specimens import Specimens
 
 
@@ -138,7 +139,7 @@ def scatter_of(
         stated = specimens.scatter
         return Scatter(names, tuple(stated.get(kind_of_deviation(name), 0.0) for name in names), None, count, "stated")
     usual = tuple(NOISE.specimen_scatter[DEVIATIONS.index(kind_of_deviation(name))] for name in names)
-    groups = [group for group in replicates(records) if len({_owners(records)[index] for index in group}) > 1]
+    groups = replicates(records)
     if not groups:
         return Scatter(names, usual, None, count, "assumed")
     draws = _drawn(groups, records, noises, columns, np.array(usual))
@@ -148,8 +149,8 @@ def scatter_of(
     return Scatter(names, tuple(deviations.tolist()), intervals, count, "replicates", draws)
 
 
-def replicates(records: Sequence[RecordResidual]) -> list[list[int]]:
-    """Records of one strain history each, by their indices; a record like no other is alone."""
+def replicates(records: Sequence[Record | RecordResidual]) -> list[list[int]]:
+    """Records of different specimens under one strain history each, by their indices."""
     groups: list[list[int]] = []
     for index, record in enumerate(records):
         for group in groups:
@@ -158,10 +159,11 @@ def replicates(records: Sequence[RecordResidual]) -> list[list[int]]:
                 break
         else:
             groups.append([index])
-    return groups
+    owners = _owners(records)
+    return [group for group in groups if len({owners[index] for index in group}) > 1]
 
 
-def _alike(first: RecordResidual, other: RecordResidual) -> bool:
+def _alike(first: Record | RecordResidual, other: Record | RecordResidual) -> bool:
     spans = [record.time[-1] - record.time[0] for record in (first, other)]
     if min(spans) < NOISE.least_time_in_common * max(spans):
         return False
@@ -172,12 +174,9 @@ def _alike(first: RecordResidual, other: RecordResidual) -> bool:
     return bool(np.sqrt(np.mean(away**2)) <= NOISE.same_history * max(float(np.ptp(own)), 1e-300))
 
 
-def _owners(records: Sequence[RecordResidual]) -> list[tuple[str, str]]:
+def _owners(records: Sequence[Record | RecordResidual]) -> list[int | str]:
     """The specimen of each record: as the campaign names it, or the record's own."""
-    return [
-        ("record", record.name) if record.specimen_id is None else ("specimen", record.specimen_id)
-        for record in records
-    ]
+    return [index if record.specimen_id is None else record.specimen_id for index, record in enumerate(records)]
 
 
 def _drawn(

@@ -55,6 +55,8 @@ class Answer:
     identify, held_out : Shrink
     parameters : mapping
         Value and standard error of the most probable entry's parameters, where known.
+    scatter : str or None
+        Where it has it from how far specimens differ: "replicates", "assumed" or "stated"; None where they are alike.
     """
 
     probability: dict[Names, float]
@@ -66,6 +68,7 @@ class Answer:
     identify: Shrink = Shrink()
     held_out: Shrink = Shrink()
     parameters: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    scatter: str | None = None
 
     @property
     def top(self) -> Names:
@@ -122,6 +125,7 @@ def _read(diagnosis: Mapping[str, object]) -> Answer:
         raise ValueError(f"verdict {verdict!r}")
     base = cast("Mapping[str, Mapping[str, object]]", diagnosis.get("base") or {})
     shrink = cast("Mapping[str, object]", diagnosis.get("shrink") or {})
+    scatter = cast("Mapping[str, Mapping[str, object]]", diagnosis.get("scatter") or {})
     return Answer(
         probability=probability,
         records={names: records for names, (_, records, _) in best.items()},
@@ -132,6 +136,7 @@ def _read(diagnosis: Mapping[str, object]) -> Answer:
         identify=_shrink(shrink.get("identify")),
         held_out=_shrink(shrink.get("held_out")),
         parameters=_with_errors(best[max(probability, key=lambda names: probability[names])][2]),
+        scatter=next((str(each["source"]) for each in scatter.values()), None),
     )
 
 

@@ -62,11 +62,12 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
 
 
 def false_alarms(nulls: Sequence[Case]) -> dict[str, object]:
-    """Of alike and of differing specimens, and of strains as extensometers measure them."""
+    """Of alike and of differing specimens, of those whose replicates show it, and of strains as usually measured."""
     quiet = [case for case in nulls if case.strain_noise <= _USUAL_STRAIN]
     return {
         "alike": Rate.of(case.answer.gap for case in nulls if not case.specimens_differ).plain(),
         "differing": Rate.of(case.answer.gap for case in nulls if case.specimens_differ).plain(),
+        "replicates": Rate.of(case.answer.gap for case in nulls if case.answer.scatter == "replicates").plain(),
         "strain_noise_to_5e-4": Rate.of(case.answer.gap for case in quiet).plain(),
     }
 
