@@ -1,10 +1,10 @@
-"""Rows of docs/laboratories.md, from what `probation blind score --json` wrote.
+"""Rows of docs/laboratories.md, from what `probation blind score --json` wrote, or from sealed folders.
 
-`python -m bench.laboratories SCORE.json…`: one row for each; `--by-strain-noise`: one row for each class of strain
-noise that it holds. Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth,
-bootstrapped ones of the answer sets' size; older scores hold neither these nor alarms where replicates show how far
-specimens differ. Beside the calibration error stands what a calibrated solver with the same probabilities stays below
-in 95 % of repeats.
+`python -m bench.laboratories SCORE.json|FOLDER…`: one row for each, and of several folders, answered, whose truths are
+opened, one of all their campaigns together; `--by-strain-noise`: one row for each class of strain noise that is there.
+Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth, bootstrapped ones of the
+answer sets' size; older scores hold neither these nor alarms where replicates show how far specimens differ. Beside the
+calibration error stands what a calibrated solver with the same probabilities stays below in 95 % of repeats.
 """
 
 from __future__ import annotations
@@ -12,6 +12,16 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.scores.answer import NO_ANSWER, read_answer
+from probation_studies.blind.scores.board import board
+from probation_studies.blind.scores.case import Case
+from probation_studies.blind.seal import read_truth
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
 
 HEAD = (
     "laboratory", "campaigns", "seeds", "false alarms, specimens alike", "false alarms, specimens differ",
@@ -27,10 +37,10 @@ BY_STRAIN_NOISE = (
 
 
 def row(content: dict) -> list[str]:
-    board = content["scores"]["answers"]
-    nulls, resolvable = board["false_alarms_by_kind"], board["resolvable_by_stratum"]
-    single, sets = resolvable["single"], board["gaps"]["answer_set"]
-    held_out = board["closure"]["held_out"]["over_oracle"]
+    scores = content["scores"]["answers"]
+    nulls, resolvable = scores["false_alarms_by_kind"], scores["resolvable_by_stratum"]
+    single, sets = resolvable["single"], scores["gaps"]["answer_set"]
+    held_out = scores["closure"]["held_out"]["over_oracle"]
     size, least = sets["mean_size"], sets["oracle_mean_size"]
     laboratory, seeds = source(content)
     return [
@@ -44,10 +54,10 @@ def row(content: dict) -> list[str]:
         rate(single["top1"]),
         between(single["probability_on_truth"], single["probability_on_truth_interval95"]),
         rate(resolvable["pair"]["top1"]),
-        rate(board["unknown"]["found_clear"]),
+        rate(scores["unknown"]["found_clear"]),
         rate(sets["coverage"]),
         between(size / least if size and least else None, sets.get("over_oracle", {}).get("interval95")),
-        calibration_error(board["reliability"]),
+        calibration_error(scores["reliability"]),
         f"{between(held_out['value'], held_out['interval95'])}, n = {held_out['n']}",
     ]
 
@@ -95,12 +105,39 @@ def calibration_error(curve: dict) -> str:
     return f"{number(curve['ece'], 3)}; below {number(curve['ece_limit95'], 3)} if calibrated"
 
 
+def answered(layout: Layout) -> Iterator[Case]:
+    """Campaigns that are answered, their truths opened; an answer that failed is wrong in everything."""
+    for path in sorted(layout.answers.glob("*-[0-9]*.json")):
+        diagnosis = json.loads(path.read_text()).get("diagnosis")
+        answer = NO_ANSWER if diagnosis is None else read_answer(diagnosis, path.name)
+        yield Case(path.stem, json.loads(read_truth(layout.truths / path.name).text), answer)
+
+
+def scored(laboratory: object, cases: Sequence[Case]) -> dict:
+    """What rows are made of, as a score holds it."""
+    seeds = sorted({case.truth["seed"] for case in cases})
+    return {"laboratory": laboratory, "campaigns": len(cases), "seeds": seeds, "scores": {"answers": board(cases)}}
+
+
+def contents_of(paths: Sequence[Path]) -> list[dict]:
+    """Of scores and of folders; of several folders all together come last."""
+    folders = {path: list(answered(Layout(path))) for path in paths if path.is_dir()}
+    contents = [
+        scored(Layout(path).published()[0].get("laboratory", "own"), folders[path])
+        if path in folders
+        else json.loads(path.read_text())
+        for path in paths
+    ]
+    together = [case for cases in folders.values() for case in cases]
+    return [*contents, scored("all", together)] if len(folders) > 1 else contents
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scores", nargs="+", type=Path, help="as probation blind score --json wrote them")
+    parser.add_argument("scores", nargs="+", type=Path, help="what probation blind score --json wrote, or folders")
     parser.add_argument("--by-strain-noise", action="store_true", help="one row for each class of strain noise")
     chosen = parser.parse_args()
-    contents = [json.loads(each.read_text()) for each in chosen.scores]
+    contents = contents_of(chosen.scores)
     if chosen.by_strain_noise:
         head, rows = BY_STRAIN_NOISE, [each for content in contents for each in rows_by_strain_noise(content)]
     else:

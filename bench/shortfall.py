@@ -28,19 +28,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import probation
+from bench.laboratories import answered
 from probation.diagnosis.probabilities import effect_count, log_prior
 from probation.effects.record_view import views_of
 from probation.effects.registry import effects
 from probation.effects.visible import visible
 from probation_studies.blind.layout import Layout
-from probation_studies.blind.scores.answer import NO_ANSWER, UNKNOWN, read_answer
+from probation_studies.blind.scores.answer import UNKNOWN, read_answer
 from probation_studies.blind.scores.case import Case
-from probation_studies.blind.seal import read_truth
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from probation_studies.blind.scores.answer import Answer, Names
+    from probation_studies.blind.scores.answer import Names
 
 BEFORE = ("an unknown", "a further effect", "a part of it", "another cause")
 CLASSES = ("strength", "form", *(f"evidence: {each}" for each in BEFORE), "search", "imitation")
@@ -82,11 +82,8 @@ def said(names: Names) -> str:
 
 def missed(layout: Layout) -> list[Case]:
     """Resolvable gaps that were answered, and not named."""
-    found = []
-    for path in sorted(layout.answers.glob("*-[0-9]*.json")):
-        case = Case(path.stem, json.loads(read_truth(layout.truths / path.name).text), _read(path))
-        found += [case] if case.causes and case.resolvable and not (case.right and case.answer.gap) else []
-    return found
+    gaps = (case for case in answered(layout) if case.causes and case.resolvable)
+    return [case for case in gaps if not (case.right and case.answer.gap)]
 
 
 def why(layout: Layout, case: Case) -> Found:
@@ -177,11 +174,6 @@ class _Told:
             for each in self.diagnosis["causes"]
             if each["checks"] and known(each["effects"]) and known(each["effects"]) <= set(truth)
         ]
-
-
-def _read(path: Path) -> Answer:
-    content = json.loads(path.read_text())
-    return read_answer(content["diagnosis"], path.name) if "diagnosis" in content else NO_ANSWER
 
 
 def page(name: str, found: Sequence[Found]) -> list[str]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bench.laboratories import BY_STRAIN_NOISE, HEAD, row, rows_by_strain_noise
+from bench.laboratories import BY_STRAIN_NOISE, HEAD, contents_of, row, rows_by_strain_noise
 from scipy.stats import binom
 
 from probation.cli import main
@@ -158,6 +158,30 @@ def test_a_row_of_the_laboratories_page_is_made_of_a_score():
     assert cells[HEAD.index("their size, over the oracle's")] == "1.00 (1.00 to 1.00)"
     assert cells[HEAD.index("calibration error")] == "0.000; below 0.000 if calibrated"
     assert cells[HEAD.index("held-out explained fraction, over the oracle's")] == "–, n = 0"
+
+
+def _answered(folder, truths):
+    """A sealed folder with answers that are right, but for the last one, which failed."""
+    for name in ("truths", "answers"):
+        (folder / name).mkdir(parents=True)
+    (folder / "seals.json").write_text(json.dumps({"laboratory": folder.name, "seals": {"test-0": ""}}))
+    for index, truth in enumerate(truths):
+        seal_truth(json.dumps(truth)).write(folder / "truths" / f"test-{index}.json")
+        content = {"diagnosis": _perfect(truth)} if index + 1 < len(truths) else {"error": "made up"}
+        (folder / "answers" / f"test-{index}.json").write_text(json.dumps(content))
+    return folder
+
+
+def test_several_folders_have_a_row_of_all_their_campaigns_together(tmp_path):
+    ours = _answered(tmp_path / "university", [_truth(("damage",))] * 4)
+    other = _answered(tmp_path / "industry", [_truth(("damage",)) | {"seed": 5}] * 6)
+    lines = [dict(zip(HEAD, row(content), strict=True)) for content in contents_of([ours, other])]
+    assert [line["laboratory"] for line in lines] == ["university", "industry", "all"]
+    assert [line["seeds"] for line in lines] == ["3", "5", "3, 5"]
+    named = [line["single, resolvable: named"].split(" (")[0] for line in lines]
+    assert named == ["75 % of 4", "83 % of 6", "80 % of 10"]
+    assert lines[-1]["P of the truth"].startswith("0.80 (")
+    assert [row(content) for content in contents_of([ours])] == [list(lines[0].values())]
 
 
 def test_scores_by_strain_noise_count_every_campaign_once():
