@@ -516,10 +516,14 @@ class Search:
             return None
 
     def _further(self, refits: Sequence[Refit], more: Sequence[Job] = ()) -> list[Refit]:
-        """Unfinished refits taken to their ends, and `more` begun; once the budget is spent, neither."""
+        """Unfinished refits taken to their ends, and `more` begun; once the budget is spent, they stay as they are."""
         if self.budget.spent():
             return list(refits)
-        return self._solved([*((fit.model, fit) for fit in refits), *more], MOST_STEPS)
+        further = self._solved([*((fit.model, fit) for fit in refits), *more], MOST_STEPS)
+        if self.budget.spent():
+            there = {id(fit.model) for fit in further}
+            further += [fit for fit in refits if id(fit.model) not in there]
+        return further
 
     def _solved(self, jobs: Sequence[Job], steps: int) -> list[Refit]:
         """Refits from models and starts; without those that the law cannot follow from there."""
