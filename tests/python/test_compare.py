@@ -189,6 +189,8 @@ def test_a_spent_budget_gives_an_answer_and_says_what_was_not_tried(sound):
     found = compare(of_a_rig(2, slack=0.05), sound, threads=1, budget=1e-6)
     assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)
     assert any("budget" in each.why for each in found.skipped)
+    assert "the budget of 1e-06 s ended the search" in found.headline
+    assert found.explanations[0].probability < 0.5
     assert json.loads(found.to_json())["skipped"]
     assert "left out" in found.summary()
     with pytest.raises(InputError, match="budget: found 0"):

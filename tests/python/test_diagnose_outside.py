@@ -3,6 +3,7 @@
 import json
 import re
 from dataclasses import replace
+from itertools import count
 
 import pytest
 
@@ -51,6 +52,35 @@ def test_a_search_over_all_effects_finds_what_explains_the_records_to_their_nois
     assert found.shrink.held_out.closure > 0.95
     assert ("No part of a record departs" in summary) != bool(found.located)
     assert not re.search(r"\d{12}", summary)
+
+
+def ended(seconds, monkeypatch):
+    """A search for a truth that shows only jointly with another effect; a second passes with every look at the clock.
+
+    Some 250 s go with single effects, 400 s with all.
+    """
+    monkeypatch.setattr("probation.diagnosis.budget.monotonic", count().__next__)
+    campaign = replace(Campaign.load(OUTSIDE / "relaxation-full-search-loses-it"), specimens=Specimens("none"))
+    return diagnose(campaign, design=False, budget=seconds)
+
+
+@pytest.mark.parametrize("seconds", [100.0, 380.0], ids=["among first steps", "among last steps"])
+def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(seconds, monkeypatch):
+    found, truth = ended(seconds, monkeypatch), "rate_dependent_relaxation"
+    assert "nothing that was tried explains it" in found.headline
+    assert re.search(rf"the budget of {seconds:g} s ended the search: \d+ of 26 effects were not tried", found.headline)
+    assert max(each.probability for each in found.effects if each.name not in (truth, "unknown")) < 0.9
+    assert found.best.probability < 0.9
+    assert (truth,) in found.answer_set
+    assert (truth,) in [each.effects for each in found.skipped]
+    assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)
+
+
+def test_a_search_that_is_ended_among_combinations_keeps_the_cause_that_it_has_found(monkeypatch):
+    found = ended(500.0, monkeypatch)
+    assert found.best.effects == ("rate_dependent_relaxation",)
+    assert found.headline.startswith("Of what was tried, rate-dependent relaxation explains the gap")
+    assert found.headline.endswith("the budget of 500 s ended the search: not all was tried jointly.")
 
 
 def test_specimens_that_differ_are_no_gap():

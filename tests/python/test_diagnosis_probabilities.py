@@ -17,10 +17,12 @@ from probation.diagnosis.probabilities import (
     log_prior,
     probabilities_of,
     with_unseen,
+    with_untried,
 )
 from probation.effects.cause import Cause
 from probation.inference.calibration_check import Trust
 from probation.inference.evidence import Evidence
+from probation.inference.unknown import UNKNOWN
 from probation.settings.evidence import EVIDENCE
 
 VIEWS = problem.views([np.linspace(0.0, 100.0, 20)] * 3)
@@ -321,3 +323,24 @@ def test_a_rare_effect_needs_more_evidence_alone_and_unseen():
     beside = with_unseen([Weighed((NAMES[0],), 1.0, hypothesis())], [made(NAMES[0]), usual, rare])
     chances = {each.effects: each.probability for each in beside}
     assert chances[(NAMES[0], "rare")] == pytest.approx(0.2 * chances[(NAMES[0], "usual")])
+
+
+def test_effects_that_were_not_tried_keep_their_share_of_the_prior_and_do_not_lead():
+    effects = [*(made(name) for name in NAMES[:4]), replace(made(NAMES[4]), odds=0.5)]
+    base, first, second = hypothesis(), alone(NAMES[0]), alone(NAMES[1])
+    weighed = [Weighed((NAMES[0],), 0.9, first), Weighed((NAMES[1],), 0.08, second), Weighed((), 0.02, base)]
+    assert with_untried(weighed, effects, (), base) == weighed
+    found = with_untried(weighed, effects, NAMES[1:5], base)
+    share = {each.effects: each.probability for each in found}
+    each_one = 1.0 / (4.5 * (1.0 + EVIDENCE.unknown_effect / EVIDENCE.one_effect))
+    tried = 1.0 - 3.5 * each_one
+    assert share[(NAMES[0],)] == pytest.approx(0.9 * tried)
+    assert share[(NAMES[1],)] == pytest.approx(0.08 * tried + each_one)
+    assert share[(NAMES[2],)] == pytest.approx(each_one)
+    assert share[(NAMES[4],)] == pytest.approx(0.5 * each_one)
+    assert share[()] == pytest.approx(0.02 * tried)
+    assert [each.hypothesis for each in found[:2]] == [first, second]
+    even = with_untried([Weighed((), 0.6, base), Weighed((UNKNOWN,), 0.4, base)], effects, NAMES[:5], base)
+    assert even[0].effects == ()
+    assert sum(each.probability for each in even) == pytest.approx(1.0)
+    assert [each.probability for each in even] == sorted((each.probability for each in even), reverse=True)

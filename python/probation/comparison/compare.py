@@ -16,6 +16,7 @@ from probation.comparison.result import ChangeCurves, ChangedParameter, ChangeEx
 from probation.detection.gap_test import GapTester
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.causes import causes_of
+from probation.diagnosis.headline import with_budget
 from probation.diagnosis.probabilities import leading
 from probation.diagnosis.skipped import Skipping
 from probation.effects.visible import visible
@@ -126,7 +127,10 @@ def compare(
     )
     advance(Part(0.9, "measuring what causes close"))
     causes, shrink, curves = causes.shrunk((), skipping, seed=seed)
-    explanations = tuple(_explanation(weighed, test, fitted=causes.verdict != "no_gap") for weighed in causes.weighed)
+    explanations = tuple(
+        _explanation(weighed, test, fitted=causes.verdict != "no_gap")
+        for weighed in causes.with_untried(causes.weighed)
+    )
     verdict: Verdict = "nothing_changed" if causes.verdict == "no_gap" else "changed"
     if explanations[0].effects == (UNKNOWN,):
         verdict = "unknown_change"
@@ -134,7 +138,7 @@ def compare(
         campaign=campaign.name,
         reference=reference.campaign.name,
         verdict=verdict,
-        headline=headline(explanations[0], len(kept.records), reference.campaign.name),
+        headline=with_budget(headline(explanations[0], len(kept.records), reference.campaign.name), causes.cut_text),
         pairs=together,
         explanations=explanations,
         answer_set=leading(explanations, calibration.covered),
@@ -150,7 +154,7 @@ def compare(
             )
             for name, record_curves in curves.items()
         },
-        skipped=skipping.entries(causes.found),
+        skipped=causes.skipped(skipping),
         scatter=causes.base.scatter,
         warnings=(*thinned, *calibration.warnings),
         calibration=calibration,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from time import monotonic
 
 from probation.errors import InputError
@@ -36,3 +37,32 @@ class Budget:
     def why(self) -> str:
         """The reason for what was left out."""
         return f"not tried within the budget of {self.seconds:g} s"
+
+
+@dataclass(frozen=True)
+class CutShort:
+    """How far a search came that its budget ended.
+
+    Attributes
+    ----------
+    seconds : float
+        The budget.
+    completed : int
+        Effects of an explanation up to which the search was done; 0 if not even with single ones.
+    ended : frozenset of str
+        Effects that were refitted by themselves to the end.
+    """
+
+    seconds: float
+    completed: int
+    ended: frozenset[str]
+
+    @property
+    def why(self) -> str:
+        """The reason for an effect that was begun at most."""
+        return f"not tried to the end within the budget of {self.seconds:g} s"
+
+    def text(self, untried: int, effects: int) -> str:
+        """That the budget ended the search, and before how many of the effects were tried to the end."""
+        left = f"{untried} of {effects} effects were not tried to the end" if untried else "not all was tried jointly"
+        return f"the budget of {self.seconds:g} s ended the search: {left}"

@@ -20,6 +20,7 @@ from probation.diagnosis.probabilities import (
     probabilities_of,
     with_unknown,
     with_unknown_leading,
+    with_untried,
 )
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.search import Search
@@ -32,11 +33,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from probation.detection.where import Located
-    from probation.diagnosis.budget import Budget
+    from probation.diagnosis.budget import Budget, CutShort
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks, RecordCurves, Shrink, Verdict
-    from probation.diagnosis.skipped import Skipping
+    from probation.diagnosis.skipped import Skipped, Skipping
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.calibration_check import CalibrationCheck, Trust
@@ -59,6 +60,8 @@ class Causes:
     checks : dict of tuple of str to Checks
         Of the explanations of the answer set.
     verdict : {"explained", "no_gap", "unexplained"}
+    cut : CutShort or None
+        How far the search came, if the budget ended it.
     """
 
     base: BaseFit
@@ -67,11 +70,35 @@ class Causes:
     weighed: list[Weighed]
     checks: Mapping[tuple[str, ...], Checks]
     verdict: Verdict
+    cut: CutShort | None = None
 
     @property
     def best(self) -> Hypothesis:
         """What stands for the most probable explanation."""
         return self.weighed[0].hypothesis
+
+    @property
+    def untried(self) -> tuple[str, ...]:
+        """Effects that the budget left no time to try to the end; none where the search would not go back to them.
+
+        It would not where the best explanation leaves nothing, and all of as many effects were tried.
+        """
+        if self.cut is None or (self.verdict == "explained" and len(self.best.effects) <= self.cut.completed):
+            return ()
+        return tuple(effect.name for effect in self.considered if effect.name not in self.cut.ended)
+
+    def with_untried(self, weighed: Sequence[Weighed]) -> list[Weighed]:
+        """Explanations weighed against the effects that were not tried to the end."""
+        return with_untried(weighed, self.considered, self.untried, self.found[0])
+
+    @property
+    def cut_text(self) -> str:
+        """That the budget ended the search; empty if it did not."""
+        return "" if self.cut is None else self.cut.text(len(self.untried), len(self.considered))
+
+    def skipped(self, skipping: Skipping) -> tuple[Skipped, ...]:
+        """What was left out."""
+        return skipping.entries(self.found, {} if self.cut is None else dict.fromkeys(self.untried, self.cut.why))
 
     def with_unknown_added(self) -> Causes:
         """The best explanation with its checks, also where it leads only together with an unknown effect."""
@@ -135,7 +162,7 @@ def causes_of(
         weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), trust), p_value)
         return Causes(base, considered, hypotheses, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
-    base, hypotheses = _searched(base, considered, threads, skipping, budget, progress)
+    base, hypotheses, cut = _searched(base, considered, threads, skipping, budget, progress)
     hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)
 
@@ -144,7 +171,7 @@ def causes_of(
         weighed = account.ranked(given_a_gap(weighed, p_value), calibration.covered)
         left, checked = _judged(leading(weighed, calibration.covered), base, account, seed)
         verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
-        return Causes(base, considered, hypotheses, weighed, checked, verdict)
+        return Causes(base, considered, hypotheses, weighed, checked, verdict, cut)
 
     def leaves_more(causes: Causes) -> bool:
         if UNKNOWN in causes.weighed[0].effects:
@@ -168,15 +195,16 @@ def _searched(
     skipping: Skipping,
     budget: Budget,
     progress: Callable[[float], None],
-) -> tuple[BaseFit, list[Hypothesis]]:
-    """Hypotheses of a gap, and the base fit with the noise that the best one leaves."""
+) -> tuple[BaseFit, list[Hypothesis], CutShort | None]:
+    """Hypotheses of a gap, the base fit with the noise that the best one leaves, and where the budget ended it."""
     with Search(base, considered, threads, progress, skipping, budget) as search:
         hypotheses = search.run()
     leading = search.ranked()
     if not leading:
-        return base, hypotheses
+        return base, hypotheses, search.cut_short
     base = with_joint_noise(search.base, leading[0].refit)
-    return base, search.reconsidered(base)
+    hypotheses = search.reconsidered(base)
+    return base, hypotheses, search.cut_short
 
 
 def _judged(

@@ -14,7 +14,7 @@ from probation.diagnosis.attribution import attribution
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
-from probation.diagnosis.headline import headline, with_remainder
+from probation.diagnosis.headline import headline, with_budget, with_remainder
 from probation.diagnosis.held_out import all_but_one, made_worse
 from probation.diagnosis.next import is_stretched, next_test_of
 from probation.diagnosis.probabilities import answer_set, with_unseen
@@ -175,7 +175,7 @@ def diagnose(
     weighed, verdict = causes.weighed, causes.verdict
     chosen = answer_set(weighed, calibration.covered)
     if gap.exists:
-        weighed = with_unseen(weighed, considered)
+        weighed = causes.with_untried(with_unseen(weighed, considered))
     best, explanations = weighed[0], explanations_of(weighed, causes.checks)
     parts = attribution(base, weighed, hypotheses, shrink.identify, workers)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
@@ -190,19 +190,23 @@ def diagnose(
     return Diagnosis(
         campaign=campaign.name,
         verdict="not_predicted" if case.predicted_only else verdict,
-        headline=with_remainder(
-            headline(
-                verdict,
-                explanations,
-                parts,
-                chosen,
-                shrink,
-                gap,
-                worse=made_worse(best.hypothesis, base, seed=seed) if gap.exists else (),
-                judge=case.judge,
-                tolerance=tolerance,
+        headline=with_budget(
+            with_remainder(
+                headline(
+                    verdict,
+                    explanations,
+                    parts,
+                    chosen,
+                    shrink,
+                    gap,
+                    worse=made_worse(best.hypothesis, base, seed=seed) if gap.exists else (),
+                    judge=case.judge,
+                    tolerance=tolerance,
+                    cut=causes.cut is not None,
+                ),
+                left if gap.matters(tolerance) else None,
             ),
-            left if gap.matters(tolerance) else None,
+            causes.cut_text if gap.matters(tolerance) else "",
         ),
         law=_law_text(campaign) if law is None else f"another law, of {', '.join(law.parameter_names)}",
         scheme=scheme_name,
@@ -226,7 +230,7 @@ def diagnose(
         signatures=signatures(base, best.hypothesis) if gap.exists else (),
         explanations=explanations,
         effects=parts.effects,
-        answer_set=chosen,
+        answer_set=answer_set(causes.with_untried(causes.weighed), calibration.covered),
         shrink=shrink,
         next_test=following[0] if following else None,
         next_tests=following,
@@ -236,7 +240,7 @@ def diagnose(
         seed=seed,
         isolability=apart,
         remainder=left,
-        skipped=skipping.entries(hypotheses),
+        skipped=causes.skipped(skipping),
         scatter=base.scatter,
         gap_if_alike=gap.if_alike,
         calibration=calibration,

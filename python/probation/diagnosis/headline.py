@@ -53,6 +53,7 @@ def headline(
     worse: Sequence[Worse] = (),
     judge: str | None = None,
     tolerance: float = DETECTION.tolerance,
+    cut: bool = False,
 ) -> str:
     """One sentence a person can act on; effects are named by what they close (docs/diagnosis-method.md, section 8).
 
@@ -68,6 +69,8 @@ def headline(
         The predicted record that no cause was fitted to, where others were.
     tolerance : float
         Part of the largest stress below which a gap does not matter.
+    cut : bool
+        Whether the budget ended the search.
     """
     identify, best = shrink.identify, explanations[0]
     fitted = len(shrink.records) - len(gap.held_out)
@@ -86,9 +89,9 @@ def headline(
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)
     count = len(shrink.records) - (shrink.held_out is not None)
-    clause = _cause(verdict, explanations, parts, answer_set, identify, count)
+    clause = _cause(verdict, explanations, parts, answer_set, identify, count, cut)
     if worse:
-        clause = _refused(best, identify, worse)
+        clause = _refused(best, identify, worse, cut)
     if gap.in_fitted:
         missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if verdict == "explained":
@@ -135,6 +138,7 @@ def _cause(
     answer_set: Sequence[tuple[str, ...]],
     identify: Closure,
     record_count: int,
+    cut: bool,
 ) -> str:
     """What explains the gap, or does not, without a full stop."""
     best = explanations[0]
@@ -144,6 +148,8 @@ def _cause(
     fall = f"the misfit {change(identify.before_MPa, parts.after_MPa)}, the noise being {identify.noise_MPa:.2g} MPa"
     pronoun = "it" if len(known) == 1 else "them"
     if verdict == "unexplained":
+        if known and cut:
+            return f"{_nothing(cut)}; with {titles(known)}{place} {fall}"
         if known:
             verb = "is" if len(known) == 1 else "are"
             if {*best.effects} - {*known} - {UNKNOWN}:  # `shrink` is with all of them
@@ -158,9 +164,11 @@ def _cause(
         if best.effects == (UNKNOWN,) and enough:
             shown = _shown([*enough[:MOST_RIVALS], best.effects], len(enough))
             return f"{shown} may explain it; these tests cannot tell which"
-        return "nothing in the catalogue explains it"
+        return _nothing(cut)
     verb = "explains" if len(known) == 1 else "explain"
     sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"
+    if cut:
+        sentence = f"of what was tried, {sentence}"
     if not {*best.effects} <= {*known, *parts.undivided}:
         sentence += (
             f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
@@ -188,14 +196,18 @@ def _close_some(parts: Attribution, identify: Closure) -> bool:
     return share >= EVIDENCE.share_worth_naming and parts.after_MPa < identify.before_MPa
 
 
-def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse]) -> str:
+def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse], cut: bool) -> str:
     """Of an explanation that the held-out records contradict."""
     known = titles([name for name in best.effects if name != UNKNOWN])
     return (
-        f"nothing in the catalogue explains it; with {known} the misfit "
+        f"{_nothing(cut)}; with {known} the misfit "
         f"{change(identify.before_MPa, identify.after_MPa, 'would ')}, "
         f"but {' and '.join(record.text for record in worse)}"
     )
+
+
+def _nothing(cut: bool) -> str:
+    return f"nothing {'that was tried' if cut else 'in the catalogue'} explains it"
 
 
 def _with_shares(parts: Attribution) -> str:
@@ -228,6 +240,11 @@ def _not_divided(parts: Attribution) -> str:
         others = titles([name for name in parts.named if name != first])
         return f"{closes}, the rest only jointly with {others}, so that {stand_ins} have no shares of their own"
     return f"{closes}, and the data cannot divide it between {stand_ins}"
+
+
+def with_budget(headline: str, ended: str) -> str:
+    """A headline that says that the budget ended the search, where it did."""
+    return f"{headline.removesuffix('.')}; {ended}." if ended else headline
 
 
 def with_remainder(headline: str, left: Remainder | None) -> str:

@@ -215,6 +215,43 @@ def with_unseen(weighed: Sequence[Weighed], effects: Sequence[Effect]) -> list[W
     return normalised(extended)
 
 
+def with_untried(
+    weighed: Sequence[Weighed], effects: Sequence[Effect], untried: Collection[str], base: Hypothesis
+) -> list[Weighed]:
+    """The same where a search was ended early: effects that were not tried to the end keep what they had beforehand.
+
+    That is their share of the prior probability of one effect, known or unknown; the rest is divided among the
+    explanations as they stand. Nothing is known of such an effect: none leads.
+
+    Parameters
+    ----------
+    weighed : sequence of Weighed
+        Most probable first.
+    effects : sequence of Effect
+        All that were considered.
+    untried : collection of str
+        Names of those that were not tried to the end.
+    base : Hypothesis
+        The base law's; it stands for those that were not tried at all.
+    """
+    if not untried:
+        return list(weighed)
+    whole = sum(effect.odds for effect in effects) * (1.0 + EVIDENCE.unknown_effect / EVIDENCE.one_effect)
+    kept: dict[tuple[str, ...], float] = {
+        (effect.name,): effect.odds / whole for effect in effects if effect.name in untried
+    }
+    tried = 1.0 - sum(kept.values())
+    first, *others = [
+        replace(each, probability=tried * each.probability + kept.pop(each.effects, 0.0)) for each in weighed
+    ]
+    others += [Weighed(alone, probability, base) for alone, probability in kept.items()]
+    most = first.probability
+    rest = [replace(each, probability=min(each.probability, most)) for each in others]
+    total = most + sum(each.probability for each in rest)
+    mixed = [replace(each, probability=each.probability / total) for each in (first, *rest)]
+    return sorted(mixed, key=lambda explanation: -explanation.probability)
+
+
 def _standing_for(entries: Sequence[tuple[float, Hypothesis]]) -> Hypothesis:
     """Of the forms that are about as probable in the same place, the one that is most nearly exact."""
     best, leading = max(entries, key=lambda entry: entry[0])

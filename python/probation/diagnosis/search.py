@@ -11,7 +11,7 @@ import numpy as np
 
 from probation.detection.lines_and_steps import find_lines, find_steps
 from probation.detection.strain_periodic import find_strain_periodic
-from probation.diagnosis.budget import Budget
+from probation.diagnosis.budget import Budget, CutShort
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.refitting import Refitting
 from probation.diagnosis.skipped import Skipping
@@ -66,6 +66,9 @@ class Search:
     _phase: tuple[float, float] = (0.0, 0.5)
     _refits: int = 0
     _taken_apart: set[frozenset[Key]] = field(default_factory=set)
+    _completed: int = 0
+    _ended: set[str] = field(default_factory=set)
+    _cut: bool = False
     _weighed: WeakKeyDictionary[Refit, Evidence | str] = field(default_factory=WeakKeyDictionary)
 
     def __post_init__(self) -> None:
@@ -83,6 +86,7 @@ class Search:
         self._singles()
         if self.base.scatter.any:
             self._scatter_around_the_best()
+        self._complete(1)
         self._try_with_unknown()
         self._begin(0.5, 0.65)
         first, extended = self.ranked()[:1], set[frozenset[Key]]()
@@ -102,6 +106,7 @@ class Search:
             self._try_with_unknown()
             if self._something_left(self.ranked()[0]):
                 self._parts_of_the_leader()
+            self._complete(size + 1)
             best = self.ranked()[0]
             if best in leading:
                 break
@@ -110,7 +115,19 @@ class Search:
         self._begin(0.8, 1.0)
         self._parts_of_the_leader()
         self._begun_anew()
+        self._cut = self.budget.spent()
         return self.found
+
+    @property
+    def cut_short(self) -> CutShort | None:
+        """How far the search came, if the budget ended it."""
+        seconds = self.budget.seconds
+        return CutShort(seconds, self._completed, frozenset(self._ended)) if self._cut and seconds else None
+
+    def _complete(self, size: int) -> None:
+        """Explanations of so many effects were tried, unless there was no time for all of them."""
+        if not self.budget.spent():
+            self._completed = size
 
     def _scatter_around_the_best(self) -> None:
         """What specimens do, around the best single effect: a law that lacks one may be far from what they are.
@@ -133,7 +150,7 @@ class Search:
 
     def _on_top_of(self, base: BaseFit, hopeless: float) -> Search:
         """A search on another base fit that begins with the leading hypotheses of every number of effects."""
-        again = Search(base, self.effects, self.threads, self._moved, self.skipping)
+        again = Search(base, self.effects, self.threads, self._moved, self.skipping, _ended=self._ended)
         leading = self._near_the_best_of_as_many(hopeless)
         steps = SEARCH.first_steps if self.budget.spent() else MOST_STEPS
         begun = [(hypothesis.refit.model, hypothesis.refit.parameters) for hypothesis in leading]
@@ -543,6 +560,9 @@ class Search:
                     self.skipping.hypothesis(model.causes, fit)
                 else:
                     solved[-1].append(fit)
+            if steps == MOST_STEPS:
+                alone = ({cause.effect.name for cause in fit.model.causes} for fit in solved[-1])
+                self._ended.update(*(names for names in alone if len(names) == 1))
         return solved
 
     def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:

@@ -9,7 +9,7 @@ from probation.inference.candidate import cause_key
 from probation.inference.unsolvable import UNSOLVABLE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.effects.cause import Cause
@@ -68,7 +68,7 @@ class Skipping:
             self.part(what, error)
             return None
 
-    def entries(self, found: Sequence[Hypothesis]) -> tuple[Skipped, ...]:
+    def entries(self, found: Sequence[Hypothesis], untried: Mapping[str, str] | None = None) -> tuple[Skipped, ...]:
         """What was left out, without the hypotheses that were solved from another start.
 
         A combination is not listed where one of its effects is.
@@ -77,12 +77,16 @@ class Skipping:
         ----------
         found : sequence of Hypothesis
             All that were solved.
+        untried : dict of str to str, optional
+            Effects that were not tried to the end, though a form of theirs may have been solved, and why.
         """
         solved = {frozenset(cause_key(cause) for cause in hypothesis.causes) for hypothesis in found}
         reasons: dict[tuple[str, ...], dict[frozenset[Key], str]] = {}
         for keys, why in self._hypotheses:
             if keys not in solved:
                 reasons.setdefault(tuple(sorted({key[0] for key in keys})), {}).setdefault(keys, why)
+        for name, why in (untried or {}).items():
+            reasons.setdefault((name,), {frozenset(): why})
         hypotheses = [
             Skipped(effects, next(iter(own.values())), len(own))
             for effects, own in sorted(reasons.items())
