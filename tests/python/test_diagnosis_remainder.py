@@ -9,8 +9,11 @@ import pytest
 from probation import Campaign, Law, Record, diagnose
 from probation.diagnosis.closure import Closure
 from probation.diagnosis.remainder import remainder_of
+from probation.effects.cause import Cause
+from probation.effects.registry import effect
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
+from probation.inference.refit import refit
 from probation.records.record import Noise
 from probation.records.specimens import Specimens
 
@@ -87,6 +90,12 @@ COURSES = [lambda part: 23.0 + 12.0 * part, lambda part: 35.0 - 10.0 * part, lam
 COURSES.append(lambda part: 23.0 + 10.0 * np.sin(np.pi * part))
 
 
+def left_by(base, found):
+    """What the law or an explanation leaves, described."""
+    left = float(np.sqrt(np.mean(found.model.residual(found.parameters) ** 2)))
+    return remainder_of(base, found, Closure(left, left, NOISE, None, None, ""))
+
+
 @cache
 def described(name):
     histories, fault, temperatures = {
@@ -98,8 +107,7 @@ def described(name):
     }[name]
     found = campaign(histories, fault, temperatures=temperatures)
     base = base_fit(found, plain_fit(found))
-    left = float(np.sqrt(np.mean(base.model.residual(base.parameters) ** 2)))
-    return remainder_of(base, base.refit, Closure(left, left, NOISE, None, None, ""))
+    return left_by(base, base.refit)
 
 
 @pytest.mark.parametrize(
@@ -210,8 +218,23 @@ def test_a_function_of_the_specimen_says_of_which():
 
     found = campaign(CYCLES, second_is_higher)
     base = base_fit(found, plain_fit(found))
-    left = float(np.sqrt(np.mean(base.model.residual(base.parameters) ** 2)))
-    told = remainder_of(base, base.refit, Closure(left, left, NOISE, None, None, ""))
+    told = left_by(base, base.refit)
     own = next(each for each in told.depends_on if each.variable in ("specimen", "order"))
     assert own.explained > 0.5
     assert "of 3 ." not in told.description
+
+
+def test_a_fault_of_one_record_does_not_hide_on_what_the_rest_depends():
+    """Its instant is known from that record alone, and from nothing where that record is left out."""
+
+    def second_jumps(time, strain, temperature, stress):
+        jump = 2.0 * (time[-1] < 1500.0) * (time > 0.6 * time[-1])
+        return faster_is_stiffer(time, strain, temperature, stress) + jump
+
+    found = campaign(JUMPS, second_jumps)
+    base = base_fit(found, plain_fit(found))
+    offset = effect("force_offset")
+    problem = base.problem.with_causes([Cause(offset, offset.form("jump"), ("r2",))])
+    told = left_by(base, refit(problem, problem.model.parameters(base.parameters, (1.0, 0.6))))
+    assert told.depends_on[0].variable == "strain_rate"
+    assert told.depends_on[0].explained > 0.8

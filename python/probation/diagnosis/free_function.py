@@ -327,11 +327,13 @@ class FreeFunctions:
         if term is not None:
             raw, smooth = np.hstack([raw, self._columns(term)]), _is_smooth(term)
         together, left = self._weight[:, None] * raw, self._weight * self._missing
-        normal, along = together.T @ together, together.T @ left
+        # Summed over the others, not subtracted from all: of what acts in one record alone nothing is left without it.
+        normals = np.stack([together[rows].T @ together[rows] for rows in folds])
+        along = np.stack([together[rows].T @ left[rows] for rows in folds])
         total = 0.0
-        for rows in folds:
-            own = together[rows]
-            solved = _solved(normal - own.T @ own, along - own.T @ left[rows], self._precision, smooth=smooth)
+        for at, rows in enumerate(folds):
+            others = np.arange(len(folds)) != at
+            solved = _solved(normals[others].sum(axis=0), along[others].sum(axis=0), self._precision, smooth=smooth)
             used = self._weight[rows] > 0.0
             total += float(np.sum((self._missing[rows] - raw[rows] @ solved)[used] ** 2))
         return total / max(int(np.count_nonzero(self._weight)), 1)
@@ -365,7 +367,8 @@ def _regular(normal: FloatArray, precision: FloatArray, *, smooth: bool) -> Floa
 def _solved(normal: FloatArray, along: FloatArray, precision: FloatArray, *, smooth: bool) -> FloatArray:
     """Least squares of `_regular` equations."""
     normal = _regular(normal, precision, smooth=smooth)
-    scale = np.sqrt(np.maximum(np.diag(normal), 1e-300))
+    scale = np.sqrt(np.diag(normal))
+    scale[scale == 0.0] = 1.0  # a parameter that nothing depends on
     return np.asarray(np.linalg.lstsq(normal / np.outer(scale, scale), along / scale, rcond=1e-10)[0] / scale)
 
 
