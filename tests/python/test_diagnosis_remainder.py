@@ -1,6 +1,7 @@
 """What is left of a gap is described by the variable it depends on; no fault here has a form of the catalogue."""
 
 import json
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -147,6 +148,16 @@ def test_what_noise_leaves_depends_on_nothing():
     assert found.depends_on == ()
     assert found.curve is None
     assert "follows no single variable" in found.description
+
+
+def test_what_the_law_closes_by_itself_depends_on_nothing():
+    """Twice the right relaxation time leaves 13 MPa, and nothing once it is mended."""
+    found = campaign(CYCLES, lambda time, strain, temperature, stress: stress)
+    base = base_fit(found, plain_fit(found))
+    told = left_by(base, replace(base.refit, parameters=base.parameters * [1.0, 2.0, 1.0]))
+    assert told.rms_MPa > 10.0
+    assert told.depends_on == ()
+    assert "follows no single variable" in told.description
 
 
 def test_the_function_in_the_figure_is_the_one_that_was_put_in():
