@@ -17,6 +17,7 @@ from probation.identify.fit import plain_fit
 from probation.inference.refit import refit
 from probation.records.record import Noise
 from probation.records.specimens import Specimens
+from probation.report.diagnosis_tables import next_tests_table
 
 LAW = Law(unrelaxed_modulus=2500.0, tau_max=5.0, hardening_modulus=2.0)
 NOISE = 0.04
@@ -209,6 +210,35 @@ def test_without_an_explanation_the_next_tests_settle_what_the_rest_depends_on(u
     assert found.next_test.probability_after > found.next_test.probability_before
     assert "between the largest strain so far and" in found.next_test.what
     assert "unload" in found.next_test.what
+
+
+@pytest.fixture(scope="module")
+def rivalled():
+    """An unknown effect leads; known ones behind it are open."""
+    return diagnose(campaign(CYCLES[:2], softened), effects=["structural_softening", "damage"], threads=1)
+
+
+def test_where_an_unknown_effect_leads_tests_of_what_the_rest_depends_on_come_first(rivalled):
+    assert rivalled.verdict == "unexplained"
+    variables = {each.variable for each in rivalled.remainder.depends_on}
+    of_the_rest = [{name for names in each.separates for name in names} <= variables for each in rivalled.next_tests]
+    assert of_the_rest[0]
+    assert not of_the_rest[-1]
+    assert of_the_rest == sorted(of_the_rest, reverse=True)
+    assert "the largest strain so far" in rivalled.next_test.what
+    assert json.loads(rivalled.to_json())["next_test"]["separates"] == [list(n) for n in rivalled.next_test.separates]
+
+
+def test_of_tests_for_two_questions_all_help(rivalled):
+    for each in rivalled.next_tests:
+        assert each.probability_after > each.probability_before
+        assert each.cost
+
+
+def test_the_page_says_what_each_test_settles(rivalled):
+    settled = [row[1] for row in next_tests_table(rivalled).rows]
+    assert settled[0] == "on what the rest depends"
+    assert settled[-1] == "which explanation is right"
 
 
 def test_a_free_function_predicts_a_record_it_was_fitted_to():

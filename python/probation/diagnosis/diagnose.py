@@ -16,7 +16,7 @@ from probation.diagnosis.causes import causes_of
 from probation.diagnosis.explain import base_parameters, explanations_of, regions_of
 from probation.diagnosis.headline import headline, with_budget, with_remainder
 from probation.diagnosis.held_out import all_but_one, made_worse
-from probation.diagnosis.next import is_stretched, next_test_of
+from probation.diagnosis.next import is_stretched, next_test_of, one_after_the_other
 from probation.diagnosis.probabilities import answer_set, with_unseen
 from probation.diagnosis.remainder import is_left, remainder_of
 from probation.diagnosis.remainder_tests import remainder_tests
@@ -47,9 +47,9 @@ if TYPE_CHECKING:
 
     from probation.design.isolability_result import Isolability
     from probation.detection.where import Where
+    from probation.diagnosis.causes import Causes
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.result import NextTest
     from probation.effects.effect import Effect
@@ -182,7 +182,7 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     done(0.75, "choosing the next test")
     following, apart = (
-        _designed(base, considered, weighed, chosen, hypotheses, left, skipping, deadline, workers, seed, done)
+        _designed(base, considered, causes, chosen, left, skipping, deadline, workers, seed, done)
         if design
         else ((), None)
     )
@@ -302,9 +302,8 @@ def _left(base: BaseFit, best: Hypothesis, closure: Closure, campaign: Campaign)
 def _designed(
     base: BaseFit,
     considered: tuple[Effect, ...],
-    weighed: Sequence[Weighed],
+    causes: Causes,
     chosen: Sequence[tuple[str, ...]],
-    hypotheses: Sequence[Hypothesis],
     left: Remainder | None,
     skipping: Skipping,
     budget: Budget,
@@ -312,26 +311,28 @@ def _designed(
     seed: int,
     done: Callable[[float, str], None],
 ) -> tuple[tuple[NextTest, ...], Isolability | None]:
-    """The next test, and what these tests can discriminate."""
+    """The next tests, and what these tests can discriminate."""
     if budget.spent(SEARCH.budget_of_design):
         skipping.part("the next test, and what these tests can discriminate", budget.why)
         return (), None
-    following: tuple[NextTest, ...] | None = None
+    following: tuple[NextTest, ...] = ()
     if is_stretched(base):
-        following = skipping.tried(
+        of_causes = skipping.tried(
             "the next test",
             lambda: next_test_of(
                 base,
-                weighed,
+                causes.weighed,
                 chosen,
-                hypotheses,
+                causes.found,
                 threads=threads,
                 seed=seed,
                 progress=lambda part: done(0.75 + 0.1 * part, "choosing the next test"),
             ),
         )
-        if not following and left is not None:
-            following = skipping.tried("the next test", lambda: remainder_tests(base, left, threads=threads, seed=seed))
+        of_rest = None
+        if left is not None and (causes.verdict == "unexplained" or not of_causes):
+            of_rest = skipping.tried("the next test", lambda: remainder_tests(base, left, threads=threads, seed=seed))
+        following = one_after_the_other(of_rest or (), of_causes or ())
     apart = skipping.tried(
         "what these tests can discriminate",
         lambda: isolability(
@@ -343,7 +344,7 @@ def _designed(
             progress=lambda part: done(0.85 + 0.15 * part, "what these tests can discriminate"),
         ),
     )
-    return following or (), apart
+    return following, apart
 
 
 def _law_text(campaign: Campaign) -> str:

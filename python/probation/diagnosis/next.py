@@ -94,3 +94,12 @@ def as_answer(ranking: Sequence[RankedTest], before: float) -> tuple[NextTest, .
         )
         for ranked in (first, *helpful[: DESIGN.listed_tests - 1])
     )
+
+
+def one_after_the_other(first: tuple[NextTest, ...], others: tuple[NextTest, ...]) -> tuple[NextTest, ...]:
+    """Tests for two questions: those that help with the first, then with the other; the first of all if none does."""
+    if not (first and others):
+        return first or others
+    both = (*first, *others)
+    helpful = tuple(each for each in both if each.probability_after >= each.probability_before + DESIGN.least_help)
+    return helpful or both[:1]

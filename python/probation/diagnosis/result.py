@@ -226,8 +226,7 @@ class NextTest:
     what : str
         One sentence.
     separates : tuple of tuple of str
-        Effects of the explanations that it discriminates; where none explains, variables that the remainder may depend
-        on.
+        Effects of the explanations that it discriminates, or variables that the remainder may depend on.
     probability_before, probability_after : float
         Of the answer being right, now and after the test.
     cost : str
@@ -312,7 +311,8 @@ class Diagnosis(Result, Stored):
     remainder : Remainder or None
         What the best explanation leaves beyond the noise, described; None where it leaves nothing.
     next_tests : tuple of NextTest
-        The best test of every kind that helps, the most worth first.
+        The best test of every kind that helps, the most worth first; where the gap is unexplained, first those that
+        settle on what the remainder depends.
     skipped : tuple of Skipped
         Hypotheses and parts of the answer that were left out, and why.
     calibration : CalibrationCheck

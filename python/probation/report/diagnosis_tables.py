@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.headline import title
@@ -182,13 +183,20 @@ def noise_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
 
 
 def next_tests_table(diagnosis: Diagnosis) -> Table:
-    """What could be done next, the most worth first."""
+    """What could be done next, and what it settles."""
+    left = diagnosis.remainder
+    variables = {dependence.variable for dependence in left.depends_on} if left else set()
     rows = tuple(
-        (test.what.partition(": ")[0], test.cost, chance(test.probability_after)) for test in diagnosis.next_tests
+        (
+            test.what.partition(": ")[0],
+            "on what the rest depends" if {*chain(*test.separates)} <= variables else "which explanation is right",
+            test.cost,
+            chance(test.probability_after),
+        )
+        for test in diagnosis.next_tests
     )
-    return Table(
-        ("test", "cost", "right answer after it"), rows, "What could be done next, the most worth first", left=2
-    )
+    headings = ("test", "settles", "cost", "right answer after it")
+    return Table(headings, rows, "What could be done next, the most worth first", left=3)
 
 
 def base_table(diagnosis: Diagnosis) -> Table:

@@ -74,7 +74,7 @@ class DesignSettings:
     bias_worth_naming: float = chosen(
         0.25, "largest bias", "Part of the largest bias from which on another one is named too."
     )
-    listed_tests: int = chosen(5, "tests", "Tests that are listed.")
+    listed_tests: int = chosen(5, "tests", "Tests that are listed for one question.")
     moving_rate: float = chosen(0.01, "largest rate", "Rate from which on a specimen of a planned test is straining.")
     least_form_weight: float = chosen(0.01, "probability", "Share of an explanation from which on a form is predicted.")
     rate_contrast: float = chosen(10.0, "-", "Ratio of the rates of planned tests, and of their times, at least.")
