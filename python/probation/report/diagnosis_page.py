@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 
 _PLACES = 4
 _EXPLANATIONS = 20
+_SHOWN = 6  # explanations in the summary
 _MOOD: dict[str, Mood] = {"no_gap": "good", "not_predicted": "bad", "explained": "neutral", "unexplained": "bad"}
 
 
@@ -73,9 +74,8 @@ def _short(diagnosis: Diagnosis) -> Section:
             f"strains of {span_text(worst.true_strain)}"
         )
     best = leading(diagnosis)
-    which = listed(
-        [f"{explanation_name(explanation, diagnosis)} ({chance(explanation.probability)})" for explanation in best]
-    )
+    shown = [f"{explanation_name(each, diagnosis)} ({chance(each.probability)})" for each in best[:_SHOWN]]
+    which = listed([*shown, *([f"{len(best) - _SHOWN} more"] if len(best) > _SHOWN else [])])
     apart = "; the data cannot discriminate between these" if len(best) > 1 else ""
     rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
     rows.append(("How far", _capital(_how_far(diagnosis))))
