@@ -390,7 +390,7 @@ def test_an_unknown_that_leads_is_no_news_where_known_effects_leave_no_more_than
 
     assert told(known) == (
         "The law misses the records by 0.165 MPa (noise 0.055 MPa): damage, drift of the force, offset of the force "
-        "or an effect outside the catalogue (and 1 more) may explain it; these tests cannot tell which."
+        "(and 1 more) or an effect outside the catalogue may explain it; these tests cannot tell which."
     )
     assert told([each for each in known if each.effects == ("force_gain",)]) == (
         "The law misses the records by 0.165 MPa (noise 0.055 MPa) and nothing in the catalogue explains it."

@@ -48,6 +48,20 @@ def test_samples_where_the_strain_jumps_do_not_decide_what_the_noise_is():
     assert found.closure == pytest.approx(1.0, abs=0.02)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_the_interval_of_one_record_holds_the_closure_where_a_part_of_it_is_noisier(seed):
+    """Its parts count as they do in the whole record."""
+    propagated = np.zeros((400, 1))
+    propagated[330:390] = 60.0 * SIGMA
+    noise = rng(seed).normal(size=400) * np.where(propagated[:, 0] > 0.0, 60.0 * SIGMA, SIGMA)
+    found = closure_of([piece(of_size(3.0 * SIGMA) + noise, noise, propagated=propagated)], rng(seed))
+    low, high = found.interval
+    assert found.closure == pytest.approx(1.0, abs=0.1)
+    assert low <= found.closure <= high
+    assert low > 0.7
+    assert high < 1.3
+
+
 def test_closure_is_not_clipped():
     """An explanation that makes matters worse closes less than nothing; one that follows the noise, more than all."""
     assert closure_of([piece(of_size(1.0), of_size(2.0))], rng()).closure == pytest.approx(1.0 - 3.75 / 0.75)

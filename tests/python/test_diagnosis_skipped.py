@@ -121,7 +121,9 @@ def test_a_budget_gives_the_best_answer_so_far_and_says_what_was_not_tried():
     found = diagnose(few_records(damage(0.05)), effects=names, threads=1, budget=1e-3)
     assert found.best.effects == ("damage",)
     assert found.headline.startswith("Of what was tried, damage explains the gap")
-    assert found.headline.endswith("the budget of 0.001 s ended the search: 4 of 4 effects were not tried to the end.")
+    assert found.headline.endswith(
+        "the budget of 0.001 s ended the search: 4 of 4 effects were not refitted to the end."
+    )
     assert found.best.probability < 0.5
     assert {(name,) for name in names} <= {*found.answer_set} & {each.effects for each in found.skipped}
     untried = [each for each in found.skipped if "not tried within the budget of 0.001 s" in each.why]

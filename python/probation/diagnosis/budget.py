@@ -60,9 +60,11 @@ class CutShort:
     @property
     def why(self) -> str:
         """The reason for an effect that was begun at most."""
-        return f"not tried to the end within the budget of {self.seconds:g} s"
+        return f"not refitted to the end: the budget of {self.seconds:g} s was spent"
 
     def text(self, untried: int, effects: int) -> str:
-        """That the budget ended the search, and before how many of the effects were tried to the end."""
-        left = f"{untried} of {effects} effects were not tried to the end" if untried else "not all was tried jointly"
+        """That the budget ended the search, and before how many of the effects were refitted to the end."""
+        left = (
+            f"{untried} of {effects} effects were not refitted to the end" if untried else "not all was tried jointly"
+        )
         return f"the budget of {self.seconds:g} s ended the search: {left}"

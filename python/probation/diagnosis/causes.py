@@ -88,7 +88,7 @@ class Causes:
         return tuple(effect.name for effect in self.considered if effect.name not in self.cut.ended)
 
     def with_untried(self, weighed: Sequence[Weighed]) -> list[Weighed]:
-        """Explanations weighed against the effects that were not tried to the end."""
+        """Explanations weighed against the effects that were not refitted to the end."""
         return with_untried(weighed, self.considered, self.untried, self.found[0])
 
     @property

@@ -24,9 +24,10 @@ class Closure:
     Attributes
     ----------
     before_MPa, after_MPa : float
-        Root mean square of the fit residual with the base law and with the best explanation.
+        Root mean square of the fit residual with the base law and with the best explanation, every sample with its
+        `NoiseModel.weight`.
     noise_MPa : float
-        Root mean square of the noise.
+        Of the noise, by the same weights.
     closure : float or None
         1 - (after^2 - noise^2)/(before^2 - noise^2), not clipped; None where before^2 - noise^2 is below two of its
         standard errors.
@@ -67,12 +68,15 @@ class Piece:
         Of the whole record.
     inside : slice, optional
         Which of the record's samples these are; all if left out.
+    region : bool
+        Whether it stands for itself: then its samples' weights have the mean 1, else the record's.
     """
 
     before: FloatArray
     after: FloatArray
     noise: NoiseModel
     inside: slice | None = None
+    region: bool = False
 
     @property
     def squares(self) -> tuple[float, float, float]:
@@ -89,7 +93,7 @@ class Piece:
 
     def _sum(self, values: FloatArray) -> float:
         weight = self._own(self.noise.weight)
-        return float(weight @ values / np.mean(weight))
+        return float(weight @ values / (np.mean(weight) if self.region else 1.0))
 
     def blocks(self) -> list[Piece]:
         """Contiguous parts of a whole record."""

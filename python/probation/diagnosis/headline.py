@@ -161,9 +161,11 @@ def _cause(
             )
             return f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)}), but {left}"
         enough = [each.effects for each in explanations if each.effects in answer_set and _is_enough(each)]
+        enough = [effects for effects in enough if not any({*fewer} < {*effects} for fewer in enough)]
         if best.effects == (UNKNOWN,) and enough:
-            shown = _shown([*enough[:MOST_RIVALS], best.effects], len(enough))
-            return f"{shown} may explain it; these tests cannot tell which"
+            more = f" (and {len(enough) - MOST_RIVALS} more)" if len(enough) > MOST_RIVALS else ""
+            shown = ", ".join(choices([effects]) for effects in enough[:MOST_RIVALS])
+            return f"{shown}{more} or {title(UNKNOWN)} may explain it; these tests cannot tell which"
         return _nothing(cut)
     verb = "explains" if len(known) == 1 else "explain"
     sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"
@@ -175,13 +177,9 @@ def _cause(
         )
     rivals = [effects for effects in answer_set if not {*known} <= {*effects}]
     if rivals:
-        return f"{sentence}; these tests cannot distinguish {pronoun} from {_shown(rivals[:MOST_RIVALS], len(rivals))}"
+        more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
+        return f"{sentence}; these tests cannot distinguish {pronoun} from {choices(rivals[:MOST_RIVALS])}{more}"
     return f"{sentence} (probability {chance(parts.probability)})"
-
-
-def _shown(sets: Sequence[tuple[str, ...]], count: int) -> str:
-    """Some of so many explanations, and how many more there are."""
-    return choices(sets) + (f" (and {count - MOST_RIVALS} more)" if count > MOST_RIVALS else "")
 
 
 def _is_enough(explanation: Explanation) -> bool:

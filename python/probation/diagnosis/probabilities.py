@@ -218,7 +218,7 @@ def with_unseen(weighed: Sequence[Weighed], effects: Sequence[Effect]) -> list[W
 def with_untried(
     weighed: Sequence[Weighed], effects: Sequence[Effect], untried: Collection[str], base: Hypothesis
 ) -> list[Weighed]:
-    """The same where a search was ended early: effects that were not tried to the end keep what they had beforehand.
+    """The same where a search was ended early: effects that were not refitted to the end keep what they had beforehand.
 
     That is their share of the prior probability of one effect, known or unknown; the rest is divided among the
     explanations as they stand. Nothing is known of such an effect: none leads.
@@ -230,7 +230,7 @@ def with_untried(
     effects : sequence of Effect
         All that were considered.
     untried : collection of str
-        Names of those that were not tried to the end.
+        Names of those that were not refitted to the end.
     base : Hypothesis
         The base law's; it stands for those that were not tried at all.
     """

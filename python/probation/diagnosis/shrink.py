@@ -77,6 +77,7 @@ def shrink_of(
                         pieces[place.record].after[place.samples],
                         noises[place.record],
                         place.samples,
+                        region=True,
                     )
                 ],
                 rng,
@@ -140,6 +141,7 @@ def _flexible(piece: Piece, base: BaseFit, name: str) -> Piece:
     """What any smooth curve would leave of a record, its own freedom paid for."""
     index = [record.name for record in base.whitened.records].index(name)
     record = base.whitened.records[index]
-    columns: FloatArray = np.linalg.qr(smooth_basis(record.time, record.jumps).columns)[0]
-    left = piece.before - columns @ (columns.T @ piece.before)
+    root = np.sqrt(piece.noise.weight)
+    columns: FloatArray = np.linalg.qr(root[:, None] * smooth_basis(record.time, record.jumps).columns)[0]
+    left = piece.before - columns @ (columns.T @ (root * piece.before)) / root
     return Piece(piece.before, left * np.sqrt(len(left) / max(len(left) - columns.shape[1], 1)), piece.noise)

@@ -78,7 +78,7 @@ class Skipping:
         found : sequence of Hypothesis
             All that were solved.
         untried : dict of str to str, optional
-            Effects that were not tried to the end, though a form of theirs may have been solved, and why.
+            Effects that were not refitted to the end, though a form of theirs may have been solved, and why.
         """
         solved = {frozenset(cause_key(cause) for cause in hypothesis.causes) for hypothesis in found}
         reasons: dict[tuple[str, ...], dict[frozenset[Key], str]] = {}

@@ -143,7 +143,7 @@ class BaseFit:
 
     @property
     def misfit(self) -> tuple[float, float]:
-        """Root mean square of the identify records' errors and of their noise [MPa]."""
+        """Root mean square of the identify records' errors and of their noise, by the samples' weights [MPa]."""
         noises = self.whitened.noises
         floor = [noise.deviation for noise in noises]
         return float(np.sqrt(mean_square(self.errors, noises))), float(np.sqrt(mean_square(floor, noises)))

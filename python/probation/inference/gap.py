@@ -235,8 +235,7 @@ def find_gap(
         for index, (record, noise) in enumerate(zip(base.whitened.records, base.whitened.noises, strict=True))
     }
     calibration = check_calibration(base)
-    small = not any(map(_plain, base.errors, base.whitened.noises, base.whitened.noises))
-    test = _survivor(base.whitened, base.smooth_columns, small, seed, base.uncertain_scatter, calibration)
+    test = _survivor(base.whitened, base.smooth_columns, sizes, seed, base.uncertain_scatter, calibration)
     alike = _if_alike(base, test, seed) if base.scatter.any else None
     held_out = {}
     for index, (record, noise) in enumerate(zip(*predictions(base), strict=True)) if predicted else ():
@@ -245,10 +244,9 @@ def find_gap(
         model = CampaignModel(base.law, [view])
         signals = screen(model, base.parameters, effects, threads=threads, only=for_a_test)
         error = whitened.clean(0)
-        own = _own(record, noise)
-        sizes[record.name] = _size(error, own, stress[record.name])
-        columns, small = _columns(signals, whitened), not _plain(error, own, noise)
-        held_out_test = _survivor(whitened, columns, small, seed, base.uncertain_scatter_of(index, noise), calibration)
+        sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
+        columns = _columns(signals, whitened)
+        held_out_test = _survivor(whitened, columns, sizes, seed, base.uncertain_scatter_of(index, noise), calibration)
         held_out[record.name] = HeldOutGap(
             _rms(error), _rms(noise.deviation), held_out_test.p_value, held_out_test.level
         )
@@ -258,7 +256,7 @@ def find_gap(
 def _survivor(
     whitened: Whitened,
     columns: WhitenedColumns,
-    small: bool,
+    sizes: Mapping[str, GapSize],
     seed: int,
     scatter: UncertainScatter | None,
     calibration: CalibrationCheck,
@@ -270,17 +268,13 @@ def _survivor(
     """
     level, noises = calibration.gap_level(misfit_over_noise(whitened)), whitened.noises
     test = _tested(whitened, columns, seed, level, scatter)
-    if not test.rejected or not small:
+    if not test.rejected or any(
+        sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
+    ):
         return test
     drifting = Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises))
     other = _tested(drifting, _columns(columns.columns, drifting), seed, level, scatter)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
-
-
-def _plain(error: FloatArray, own: NoiseModel, noise: NoiseModel) -> bool:
-    """Whether what is left of a record's error, its own noise taken off, is more than a fraction of the noise."""
-    excess = np.mean(error**2 - own.deviation**2)
-    return bool(excess > (DETECTION.fraction_of_noise * _rms(noise.deviation)) ** 2)
 
 
 def misfit_over_noise(whitened: Whitened) -> float:
@@ -353,18 +347,17 @@ def _unknown_start(base: BaseFit, record: RecordResidual) -> FloatArray:
 
 
 def _size(error: FloatArray, noise: NoiseModel, stress: float) -> GapSize:
-    """Of what is left of a record's error, shape (n,) [MPa], when its noise is taken off, by the samples' weights."""
-    count, root = len(error), np.sqrt(noise.weight)
-    error, propagated = root * error, root[:, None] * noise.propagated
-    floor = (root * noise.deviation) ** 2
+    """Of what is left of a record's error, shape (n,) [MPa], when its noise is taken off."""
+    count = len(error)
+    floor = noise.deviation**2
     gap = float(np.mean(error**2 - floor))
-    rough = float(np.mean(floor - np.sum(propagated**2, axis=1)))
+    rough = float(np.mean(floor - np.sum(noise.propagated**2, axis=1)))
     level = noise.level_variance + noise.shape_variance
     # Of the noise's own mean square, of its level, and of its product with the gap.
     variance = rough**2 * (2.0 * noise.square_inflation / count + level)
     variance += 4.0 * max(gap, 0.0) * rough * noise.slow_inflation / count
-    variance += 2.0 * float(np.sum((propagated.T @ propagated) ** 2)) / count**2
-    variance += 4.0 * float(np.sum((propagated.T @ error) ** 2)) / count**2
+    variance += 2.0 * float(np.sum((noise.propagated.T @ noise.propagated) ** 2)) / count**2
+    variance += 4.0 * float(np.sum((noise.propagated.T @ error) ** 2)) / count**2
     low, high = (np.sqrt(max(gap + side * TWO_SIDED_95 * np.sqrt(variance), 0.0)) for side in (-1.0, 1.0))
     return GapSize(noise.name, float(np.sqrt(max(gap, 0.0))), (float(low), float(high)), stress)
 

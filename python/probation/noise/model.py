@@ -133,7 +133,7 @@ class NoiseModel:
         Where the strain jumps, its noise is many times that of the stress. By their variance a few samples there would
         decide what is said of a whole record.
         """
-        deviation = self.deviation
+        deviation = np.maximum(self.deviation, 1e-300)
         weight = (np.median(deviation) / np.maximum(deviation, np.median(deviation))) ** 2
         return np.asarray(weight / np.mean(weight), dtype=np.float64)
 
