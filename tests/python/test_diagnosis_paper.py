@@ -93,11 +93,14 @@ def test_two_grip_speeds_together_bring_it_down_to_the_noise():
 
 
 def test_a_wavy_bias_is_told_beside_the_missing_relation():
-    """1.5 MPa at its largest, about 0.5 rms: what is left is of that size, and the headline says that it is there."""
+    """1.5 MPa at its largest, about 0.5 rms: what is left is of that size, and the headline says that it is there.
+
+    A noise that holds such a wave leaves other effects near: a stress-activated flow is 19 log units behind.
+    """
     found = diagnosed(record(3, "P2", "identify", bias=1.5), record(3, "P1", "held-out"), hold=HELD)
     assert found.verdict == "unexplained"
     assert {MISSING, UNKNOWN} <= {*found.best.effects}
-    assert all(MISSING in effects for effects in found.answer_set)
+    assert next(each.probability for each in found.effects if each.name == MISSING) > 0.75
     assert "rate-dependent relaxation" in found.headline
     assert "part of it" in found.headline
     assert "something outside the catalogue is left" in found.headline
