@@ -15,11 +15,13 @@ from pathlib import Path
 
 import numpy as np
 
+from bench.answered import answered
 from bench.in_turn import LEAST, judged
-from bench.reweighed import answered, gaps_of
-from probation.errors import InputError
+from bench.one_line import one_line
+from bench.reweighed import gaps_of
 from probation.inference.calibration_check import Trust
 from probation.settings.evidence import EVIDENCE
+from probation_studies.blind.layout import Layout
 
 POWERS = (1.0, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 SHYNESSES = (0.15, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0)
@@ -45,14 +47,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="a split with answers and truths")
     folder = parser.parse_args().folder
-    try:
+    with one_line(parser):
         gaps = [gap for gap in gaps_of(folder) if gap.case.stratum != LOOK_ALIKES]
-    except InputError as error:
-        parser.error(str(error))
     others = [
         (case, diagnosis["gap"]["p_value"])
-        for case, diagnosis in answered(folder)
-        if not case.answer.gap and case.stratum != LOOK_ALIKES
+        for case, diagnosis in answered(Layout(folder))
+        if diagnosis is not None and not case.answer.gap and case.stratum != LOOK_ALIKES
     ]
     table("power", [(power, tempered(gaps, power)) for power in POWERS], "with a gap")
     singles = [gap for gap in gaps if len(gap.case.explanation) == 1 and gap.case.stratum == "single"]

@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.one_line import one_line
 from bench.reweighed import Gap, gaps_of
-from probation.errors import InputError
 from probation.inference.calibration_check import CalibrationCheck, Trust
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind.scores.answer import UNKNOWN
@@ -174,10 +174,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folders", nargs="+", type=Path, help="sealed folders of several laboratories, answered")
     folders = parser.parse_args().folders
-    try:
+    with one_line(parser):
         gaps = [gap for folder in folders for gap in gaps_of(folder)]
-    except InputError as error:
-        parser.error(str(error))
     if len({gap.laboratory for gap in gaps}) < 2:
         parser.error("found gaps of one laboratory, expected those of two at least: one is left out")
     lines = [HEAD, ("---",) * len(HEAD), *rows(gaps)]

@@ -10,18 +10,19 @@ calibration error stands what a calibrated solver with the same probabilities st
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from bench.answered import answered
+from bench.one_line import one_line
+from probation._files import read_json
 from probation_studies.blind.layout import Layout
-from probation_studies.blind.scores.answer import NO_ANSWER, read_answer
 from probation_studies.blind.scores.board import board
-from probation_studies.blind.scores.case import Case
-from probation_studies.blind.seal import read_truth
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
+
+    from probation_studies.blind.scores.case import Case
 
 HEAD = (
     "laboratory", "campaigns", "seeds", "false alarms, specimens alike", "false alarms, specimens differ",
@@ -105,14 +106,6 @@ def calibration_error(curve: dict) -> str:
     return f"{number(curve['ece'], 3)}; below {number(curve['ece_limit95'], 3)} if calibrated"
 
 
-def answered(layout: Layout) -> Iterator[Case]:
-    """Campaigns that are answered, their truths opened; an answer that failed is wrong in everything."""
-    for path in sorted(layout.answers.glob("*-[0-9]*.json")):
-        diagnosis = json.loads(path.read_text()).get("diagnosis")
-        answer = NO_ANSWER if diagnosis is None else read_answer(diagnosis, path.name)
-        yield Case(path.stem, json.loads(read_truth(layout.truths / path.name).text), answer)
-
-
 def scored(laboratory: object, cases: Sequence[Case]) -> dict:
     """What rows are made of, as a score holds it."""
     seeds = sorted({case.truth["seed"] for case in cases})
@@ -121,11 +114,11 @@ def scored(laboratory: object, cases: Sequence[Case]) -> dict:
 
 def contents_of(paths: Sequence[Path]) -> list[dict]:
     """Of scores and of folders; of several folders all together come last."""
-    folders = {path: list(answered(Layout(path))) for path in paths if path.is_dir()}
+    folders = {path: [case for case, _ in answered(Layout(path))] for path in paths if path.is_dir()}
     contents = [
         scored(Layout(path).published()[0].get("laboratory", "own"), folders[path])
         if path in folders
-        else json.loads(path.read_text())
+        else read_json(path, "what probation blind score --json writes")
         for path in paths
     ]
     together = [case for cases in folders.values() for case in cases]
@@ -137,7 +130,8 @@ def main() -> None:
     parser.add_argument("scores", nargs="+", type=Path, help="what probation blind score --json wrote, or folders")
     parser.add_argument("--by-strain-noise", action="store_true", help="one row for each class of strain noise")
     chosen = parser.parse_args()
-    contents = contents_of(chosen.scores)
+    with one_line(parser):
+        contents = contents_of(chosen.scores)
     if chosen.by_strain_noise:
         head, rows = BY_STRAIN_NOISE, [each for content in contents for each in rows_by_strain_noise(content)]
     else:

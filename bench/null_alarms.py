@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.laboratories import rate
+from bench.one_line import one_line
 from probation.effects.registry import effects
 from probation.effects.visible import visible
 from probation.identify.base import base_fit
@@ -110,7 +111,9 @@ def main() -> None:
     print(f"| {' | '.join(HEAD)} |\n| {' | '.join(['---'] * len(HEAD))} |")
     together = []
     for layout in layouts:
-        nulls, (published, _) = asked(layout), layout.published()
+        with one_line(parser):
+            published, _ = layout.published()
+        nulls = asked(layout)
         print(row(str(published.get("laboratory", "own")), nulls), flush=True)
         together += nulls
     if len(layouts) > 1:

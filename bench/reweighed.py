@@ -6,12 +6,12 @@ none is refused by a record that was held out.
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import log
 from typing import TYPE_CHECKING, Any
 
+from bench.answered import answered
 from probation.diagnosis.probabilities import (
     Weighed,
     chances_of,
@@ -24,12 +24,11 @@ from probation.diagnosis.probabilities import (
 from probation.effects.registry import effects
 from probation.errors import InputError
 from probation_studies.blind.layout import Layout
-from probation_studies.blind.scores.answer import UNKNOWN, read_answer
+from probation_studies.blind.scores.answer import UNKNOWN
 from probation_studies.blind.scores.case import Case
-from probation_studies.blind.seal import read_truth
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
     from pathlib import Path
 
     from probation.effects.effect import Effect
@@ -106,20 +105,15 @@ class Gap:
         return given_a_gap(sorted(found, key=lambda each: -each.probability), self.p_value)
 
 
-def answered(folder: Path) -> Iterator[tuple[Case, dict[str, Any]]]:
-    """Campaigns of a sealed folder that are answered, with their diagnoses; its truths are opened."""
-    layout = Layout(folder)
-    for path in sorted(layout.answers.glob("*-[0-9]*.json")):
-        diagnosis = json.loads(path.read_text()).get("diagnosis")
-        if diagnosis is not None:
-            truth = json.loads(read_truth(layout.truths / path.name).text)
-            yield Case(path.stem, truth, read_answer(diagnosis, str(path))), diagnosis
-
-
 def gaps_of(folder: Path) -> list[Gap]:
     """Declared gaps with a cause."""
-    laboratory = str(Layout(folder).published()[0]["laboratory"])
-    return [gap_in(laboratory, *each) for each in answered(folder) if each[0].causes and each[0].answer.gap]
+    layout = Layout(folder)
+    laboratory = str(layout.published()[0]["laboratory"])
+    return [
+        gap_in(laboratory, case, diagnosis)
+        for case, diagnosis in answered(layout)
+        if diagnosis is not None and case.causes and case.answer.gap
+    ]
 
 
 def gap_in(laboratory: str, case: Case, diagnosis: Mapping[str, Any]) -> Gap:

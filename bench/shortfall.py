@@ -28,7 +28,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import probation
-from bench.laboratories import answered
+from bench.answered import answered
+from bench.one_line import one_line
 from probation.diagnosis.probabilities import effect_count, log_prior
 from probation.effects.record_view import views_of
 from probation.effects.registry import effects
@@ -82,7 +83,7 @@ def said(names: Names) -> str:
 
 def missed(layout: Layout) -> list[Case]:
     """Resolvable gaps that were answered, and not named."""
-    gaps = (case for case in answered(layout) if case.causes and case.resolvable)
+    gaps = (case for case, _ in answered(layout) if case.causes and case.resolvable)
     return [case for case in gaps if not (case.right and case.answer.gap)]
 
 
@@ -196,6 +197,8 @@ def main() -> None:
     chosen = parser.parse_args()
     for folder in chosen.folders:
         layout = Layout(folder, answer_folder=folder / chosen.answers)
+        with one_line(parser):
+            layout.published()
         found = []
         for case in missed(layout):
             found.append(why(layout, case))
