@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from probation.diagnosis.closure import floor_error
 from probation.inference.candidate import cause_key
 from probation.inference.refit import Ended, Refit, refit
 from probation.inference.unknown import UNKNOWN
@@ -94,7 +93,7 @@ class Attribution:
         The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
         and leave no more than `EVIDENCE.most_left` times what it leaves, or the noise; by share. Effects that can stand
         in for each other are named, too, where all act with `EVIDENCE.credible_set`. All effects where there are no
-        shares, and where the misfit in MPa falls with the fewest but not with all, or the other way round.
+        shares, and where the misfit in MPa falls with these but not with all, or the other way round.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float
@@ -133,12 +132,12 @@ def attribution(
     known = best.hypothesis.effects if best.effects else ()
     parts = _parts(base, best.hypothesis, known, found, threads)
     squares = _squares(base, parts)
-    floor, error = _floor(base)
+    floor = 1.0 if _differ(base) else closure.noise_MPa**2
     named, after = known, closure.after_MPa
     closed: dict[tuple[str, ...], float] = {}
     shares: dict[str, float] = {}
     undivided: tuple[str, ...] = ()
-    if squares[()] - floor > EVIDENCE.closure_gap * error:
+    if _above_noise(base, squares[()], closure):
         gap = squares[()] - min(floor, squares[known])
         closed = {part: (squares[()] - square) / gap for part, square in squares.items()}
         named, undivided = _named(known, closed, squares, floor), _undivided(known, closed)
@@ -242,14 +241,11 @@ def _mean_square(base: BaseFit, fit: Refit) -> float:
     return mean_square(_errors(base, fit), base.whitened.noises)
 
 
-def _floor(base: BaseFit) -> tuple[float, float]:
-    """Mean square of the noise and its standard error, in the units of `_squares`."""
+def _above_noise(base: BaseFit, square: float, closure: Closure) -> bool:
+    """Whether the mean square of the gap, in the units of `_squares`, is plainly above that of the noise."""
     if _differ(base):
-        return 1.0, float(np.sqrt(2.0 / len(base.refit.residual)))
-    noises = base.whitened.noises
-    count = np.array([len(noise) for noise in noises], dtype=np.float64)
-    floor = np.array([float(noise.weight @ noise.deviation**2) for noise in noises])
-    return float(floor.sum() / count.sum()), floor_error(floor, count, noises) / float(count.sum())
+        return bool(square - 1.0 > EVIDENCE.closure_gap * np.sqrt(2.0 / len(base.refit.residual)))
+    return closure.closure is not None
 
 
 def _misfit(base: BaseFit, fit: Refit | None) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -81,19 +82,24 @@ class Piece:
     @property
     def squares(self) -> tuple[float, float, float]:
         """Sums of squares before and after, and of the noise's variance [MPa^2], by the samples' weights."""
-        return self._sum(self.before**2), self._sum(self.after**2), self._sum(self._own(self.noise.deviation) ** 2)
+        noise = self._own(self.noise.deviation)
+        return self._sum(self.before**2), self._sum(self.after**2), self._sum(noise**2)
 
     @property
     def both(self) -> float:
         """Sum of the products of what was there before and after [MPa^2]."""
         return self._sum(self.before * self.after)
 
+    @cached_property
+    def _weight(self) -> FloatArray:
+        weight = self._own(self.noise.weight)
+        return weight / np.mean(weight) if self.region else weight
+
     def _own(self, values: FloatArray) -> FloatArray:
         return values if self.inside is None else values[self.inside]
 
     def _sum(self, values: FloatArray) -> float:
-        weight = self._own(self.noise.weight)
-        return float(weight @ values / (np.mean(weight) if self.region else 1.0))
+        return float(self._weight @ values)
 
     def blocks(self) -> list[Piece]:
         """Contiguous parts of a whole record."""
@@ -118,17 +124,18 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
     """
     count = np.array([len(piece.before) for piece in pieces], dtype=np.float64)
     before, after, floor = np.transpose([piece.squares for piece in pieces])
-    noises = [piece.noise for piece in pieces]
-    level = np.sqrt([noise.level_variance + noise.shape_variance for noise in noises])
+    level = np.sqrt([piece.noise.level_variance + piece.noise.shape_variance for piece in pieces])
     total = float(count.sum())
     excess = float(before.sum() - floor.sum())
-    own = _own_error(floor, count, noises)
+    # Sum of squares of correlated noise scatters as if there were fewer samples.
+    own = np.sqrt(2.0 * np.array([piece.noise.square_inflation for piece in pieces]) / count) * floor
+    error = float(np.sqrt(np.sum(own**2 + (level * floor) ** 2)))
     known = (
         float(np.sqrt(before.sum() / total)),
         float(np.sqrt(after.sum() / total)),
         float(np.sqrt(floor.sum() / total)),
     )
-    if not excess > EVIDENCE.closure_gap * floor_error(floor, count, noises):
+    if not excess > EVIDENCE.closure_gap * error:
         return Closure(
             *known, None, None, f"the gap is not above {EVIDENCE.closure_gap:g} standard errors of the noise"
         )
@@ -174,26 +181,6 @@ def closure_of_blocks(parts: Sequence[Piece], rng: np.random.Generator) -> tuple
     )
     value = 1.0 - float(after.sum() - floor.sum()) / float(before.sum() - floor.sum())
     return _interval(draws, value, len(parts))
-
-
-def floor_error(floor: FloatArray, count: FloatArray, noises: Sequence[NoiseModel]) -> float:
-    """Standard error of the noise's sum of squares over records, of its level's error and its own scatter [MPa^2].
-
-    Parameters
-    ----------
-    floor : ndarray, shape (n_records,) [MPa^2]
-        The sum in each of them.
-    count : ndarray, shape (n_records,)
-        Of samples.
-    noises : sequence of NoiseModel
-    """
-    level = np.array([noise.level_variance + noise.shape_variance for noise in noises])
-    return float(np.sqrt(np.sum(_own_error(floor, count, noises) ** 2 + level * floor**2)))
-
-
-def _own_error(floor: FloatArray, count: FloatArray, noises: Sequence[NoiseModel]) -> FloatArray:
-    """Its own scatter: squares of correlated noise scatter as if there were fewer samples."""
-    return np.asarray(np.sqrt(2.0 * np.array([noise.square_inflation for noise in noises]) / count) * floor)
 
 
 def _ratio(before: FloatArray, after: FloatArray, floor: FloatArray) -> FloatArray:

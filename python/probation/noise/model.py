@@ -134,7 +134,8 @@ class NoiseModel:
         decide what is said of a whole record.
         """
         deviation = np.maximum(self.deviation, 1e-300)
-        weight = (np.median(deviation) / np.maximum(deviation, np.median(deviation))) ** 2
+        usual = np.median(deviation)
+        weight = (usual / np.maximum(deviation, usual)) ** 2
         return np.asarray(weight / np.mean(weight), dtype=np.float64)
 
     @property
