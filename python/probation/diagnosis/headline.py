@@ -160,12 +160,9 @@ def _cause(
                 else "what is left takes a course that noise does not: something outside the catalogue acts, too"
             )
             return f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)}), but {left}"
-        enough = [each.effects for each in explanations if each.effects in answer_set and _is_enough(each)]
-        enough = [effects for effects in enough if not any({*fewer} < {*effects} for fewer in enough)]
-        if best.effects == (UNKNOWN,) and enough:
-            more = f" (and {len(enough) - MOST_RIVALS} more)" if len(enough) > MOST_RIVALS else ""
+        if best.effects == (UNKNOWN,) and (enough := _enough(explanations, answer_set)):
             shown = ", ".join(choices([effects]) for effects in enough[:MOST_RIVALS])
-            return f"{shown}{more} or {title(UNKNOWN)} may explain it; these tests cannot tell which"
+            return f"{shown}{_more(enough)} or {title(UNKNOWN)} may explain it; these tests cannot tell which"
         return _nothing(cut)
     verb = "explains" if len(known) == 1 else "explain"
     sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"
@@ -177,15 +174,27 @@ def _cause(
         )
     rivals = [effects for effects in answer_set if not {*known} <= {*effects}]
     if rivals:
-        more = f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
-        return f"{sentence}; these tests cannot distinguish {pronoun} from {choices(rivals[:MOST_RIVALS])}{more}"
+        shown = choices(rivals[:MOST_RIVALS])
+        return f"{sentence}; these tests cannot distinguish {pronoun} from {shown}{_more(rivals)}"
     return f"{sentence} (probability {chance(parts.probability)})"
 
 
-def _is_enough(explanation: Explanation) -> bool:
-    """Whether known effects leave nothing that the test for a gap sees."""
-    known = UNKNOWN not in explanation.effects
-    return known and explanation.checks is not None and explanation.checks.remaining_p_value >= DETECTION.gap_level
+def _more(rivals: Sequence[tuple[str, ...]]) -> str:
+    """How many there are besides those that are shown."""
+    return f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
+
+
+def _enough(explanations: Sequence[Explanation], answer_set: Sequence[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """Known effects of the answer set that leave nothing which the test for a gap sees, without any to spare."""
+    enough = [
+        each.effects
+        for each in explanations
+        if each.effects in answer_set
+        and UNKNOWN not in each.effects
+        and each.checks is not None
+        and each.checks.remaining_p_value >= DETECTION.gap_level
+    ]
+    return [effects for effects in enough if not any({*fewer} < {*effects} for fewer in enough)]
 
 
 def _close_some(parts: Attribution, identify: Closure) -> bool:
