@@ -215,6 +215,11 @@ def judged(
     )
 
 
+def helps(after: float, before: float) -> bool:
+    """Whether a test makes the right answer so much more probable that it is worth doing."""
+    return after >= before + DESIGN.least_help
+
+
 def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
     """Explanations that are surely discriminated, and True; or else the two discriminated best, and False."""
     both = np.minimum(pairwise, pairwise.T)
@@ -226,7 +231,7 @@ def _separated(pairwise: FloatArray) -> tuple[list[int], bool]:
 
 def _sentence(what: str, after: float, names: Sequence[str], surely: bool, before: float) -> str:
     named = f"{', '.join(names[:-1])} and {names[-1]}"
-    if after < before + DESIGN.least_help:
+    if not helps(after, before):
         best = f"{what[0].lower()}{what[1:]}"
         return f"None of the tests considered helps to discriminate between {named}; the best of them: {best}."
     does = f"it discriminates between {named}" if surely else f"it helps most between {named}"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.design.next_test import next_test
+from probation.design.next_test import helps, next_test
 from probation.diagnosis.result import NextTest
 from probation.inference.unknown import UNKNOWN
 from probation.settings.design import DESIGN
@@ -83,7 +83,7 @@ def as_answer(ranking: Sequence[RankedTest], before: float) -> tuple[NextTest, .
     for ranked in ranking:
         of_kind.setdefault(ranked.test.name, ranked)
     first, *others = of_kind.values()
-    helpful = [ranked for ranked in others if ranked.probability_after >= before + DESIGN.least_help]
+    helpful = [ranked for ranked in others if helps(ranked.probability_after, before)]
     return tuple(
         NextTest(
             what=ranked.what,
@@ -101,5 +101,5 @@ def one_after_the_other(first: tuple[NextTest, ...], others: tuple[NextTest, ...
     if not (first and others):
         return first or others
     both = (*first, *others)
-    helpful = tuple(each for each in both if each.probability_after >= each.probability_before + DESIGN.least_help)
+    helpful = tuple(each for each in both if helps(each.probability_after, each.probability_before))
     return helpful or both[:1]
