@@ -174,12 +174,14 @@ class Search:
             forms.setdefault(_keys(hypothesis.refit), hypothesis)
         chosen: list[Hypothesis] = []
         for size in dict.fromkeys(len(hypothesis.effects) for hypothesis in forms.values()):
-            sets = self.ranked(size)
-            best, most = _standing(sets[0]), len(sets) if size == 1 else SEARCH.reconsidered
-            race = max(hopeless, SEARCH.slack) if size == 1 else hopeless
             as_many = [hypothesis for hypothesis in forms.values() if len(hypothesis.effects) == size]
+            best, sets = _standing(as_many[0]), self.ranked(size)
+            if size == 1:
+                race = max(hopeless, SEARCH.slack)
+            else:
+                race, sets = hopeless, sets[: SEARCH.reconsidered]
             chosen += [each for each in as_many[: SEARCH.reconsidered] if _standing(each) >= best - hopeless]
-            chosen += [each for each in sets[:most] if _standing(each) >= best - race and each not in chosen]
+            chosen += [each for each in sets if _standing(each) >= best - race and each not in chosen]
         return chosen
 
     def ranked(self, size: int | None = None, *, acting_once: bool = False) -> list[Hypothesis]:
