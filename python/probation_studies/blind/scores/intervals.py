@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import beta, binom, t
 
-_DRAWS = 2000
+DRAWS = 2000
+"""Of a bootstrap."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +90,7 @@ class Average:
         if not sum(under):
             return cls(n, None, None)
         pairs = np.array([over, under], dtype=np.float64)
-        drawn = pairs[:, np.random.default_rng(0).integers(n, size=(_DRAWS, n))].sum(axis=2)
+        drawn = pairs[:, np.random.default_rng(0).integers(n, size=(DRAWS, n))].sum(axis=2)
         low, high = np.quantile(drawn[0] / drawn[1], [0.025, 0.975])
         return cls(n, float(pairs[0].sum() / pairs[1].sum()), (float(low), float(high)) if n > 5 else None)
 

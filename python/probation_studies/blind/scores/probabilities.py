@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.stats import rankdata
 
-from probation_studies.blind.scores.intervals import Rate
+from probation_studies.blind.scores.intervals import DRAWS, Rate
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,7 +19,6 @@ LEAST_PROBABILITY = 1e-6
 """Of the truth, where an answer gives none: the log score stays finite."""
 
 _BINS = 10
-_DRAWS = 2000
 
 
 def log_score(cases: Sequence[Case]) -> float | None:
@@ -55,7 +54,7 @@ def reliability(cases: Sequence[Case]) -> dict[str, object]:
     if not len(said):
         return {"bins": [], "ece": None, "ece_limit95": None}
     bins = np.minimum((said * _BINS).astype(int), _BINS - 1)
-    drawn = np.random.default_rng(0).uniform(size=(_DRAWS, len(said))) < said
+    drawn = np.random.default_rng(0).uniform(size=(DRAWS, len(said))) < said
     curve: list[dict[str, object]] = []
     for which in np.unique(bins):
         here = bins == which
