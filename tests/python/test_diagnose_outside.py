@@ -68,7 +68,8 @@ def ended(seconds, monkeypatch):
 def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(seconds, monkeypatch):
     found, truth = ended(seconds, monkeypatch), "rate_dependent_relaxation"
     assert "nothing that was tried explains it" in found.headline
-    assert re.search(rf"budget of {seconds:g} s ended the search: \d+ of 26 effects were not refitted", found.headline)
+    end = rf"; the budget of {seconds:g} s ended the search: \d+ of 26 effects were not refitted to the end\.$"
+    assert re.search(end, found.headline)
     assert max(each.probability for each in found.effects if each.name not in (truth, "unknown")) < 0.9
     assert found.best.probability < 0.9
     assert (truth,) in found.answer_set

@@ -101,6 +101,9 @@ def test_a_wavy_bias_is_told_beside_the_missing_relation():
     assert found.verdict == "unexplained"
     assert {MISSING, UNKNOWN} <= {*found.best.effects}
     assert next(each.probability for each in found.effects if each.name == MISSING) > 0.75
+    known = [each for each in found.explanations if each.effects in found.answer_set and UNKNOWN not in each.effects]
+    best = max(each.log_evidence for each in known)
+    assert all(MISSING in each.effects or each.log_evidence < best - 15.0 for each in known)
     assert "rate-dependent relaxation" in found.headline
     assert "part of it" in found.headline
     assert "something outside the catalogue is left" in found.headline
