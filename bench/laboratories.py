@@ -3,7 +3,7 @@
 `python -m bench.laboratories SCORE.json|FOLDER…`: one row for each, and of several folders, answered, whose truths are
 opened, one of all their campaigns together; `--by-strain-noise`: one row for each class of strain noise that is there.
 Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth, bootstrapped ones of the
-answer sets' size; older scores hold neither these nor alarms where replicates show how far specimens differ. Beside the
+answer sets' size; older scores hold neither these nor alarms where replicates show how far specimens differ. After the
 calibration error stands what a calibrated solver with the same probabilities stays below in 95 % of repeats.
 """
 
