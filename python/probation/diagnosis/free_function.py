@@ -327,7 +327,7 @@ class FreeFunctions:
         if term is not None:
             raw, smooth = np.hstack([raw, self._columns(term)]), _is_smooth(term)
         together, left = self._weight[:, None] * raw, self._weight * self._missing
-        # Summed over the others, not subtracted from all: of what acts in one record alone nothing is left without it.
+        # Summed over the other records: to subtract one from all leaves rounding errors of what acts in it alone.
         normals = np.stack([together[rows].T @ together[rows] for rows in folds])
         along = np.stack([together[rows].T @ left[rows] for rows in folds])
         total = 0.0

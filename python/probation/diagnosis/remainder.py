@@ -85,7 +85,7 @@ def remainder_of(
     problem = FreeFunctions(base, found, found.parameters, phases, closure.noise_MPa)
     before = problem.before
     for _ in range(REMAINDER.linearisations):
-        # What the law alone closes from where a function has moved it is no merit of the function.
+        # The last function has moved the parameters. What the law alone closes from there is not due to a function.
         before = {kind: min(square, problem.before[kind]) for kind, square in before.items()}
         trials = sorted(
             (problem.trial(term, before) for term in terms_of(variables, problem)), key=lambda tried: -tried.rank
