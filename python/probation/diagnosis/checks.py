@@ -1,6 +1,6 @@
 """What else speaks for or against an explanation: records left out, one amplitude for all, bounds.
 
-docs/diagnosis-method.md, sections 4 and 6.
+How they are read: docs/diagnosis.md. They change no probability.
 
 Both are worked out from the Jacobian at the optimum: leaving a record out moves the parameters little, and the solves
 would be spent for the same figures.
