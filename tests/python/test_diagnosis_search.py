@@ -212,6 +212,24 @@ def test_many_forms_of_one_effect_leave_room_for_the_others_that_are_judged_agai
     assert again == [each.effects for each in alone]
 
 
+def test_a_linearised_gain_that_no_refit_reaches_keeps_no_effect_out(monkeypatch):
+    """An offset of the force looks millions of log units better than it turns out to be."""
+    chosen, made = effects(CONSIDERED), campaign(2)
+    base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
+    candidates = type(base).candidates
+
+    def boasting(self, *given, **options):
+        for each in candidates(self, *given, **options):
+            yield replace(each, gain=1e8) if each.cause.effect.name == "force_offset" else each
+
+    monkeypatch.setattr(type(base), "candidates", lambda *given, **options: list(boasting(*given, **options)))
+    with Search(base, chosen) as search:
+        search._singles()
+        assert ("damage",) not in {hypothesis.effects for hypothesis in search.found}
+        search._passed_over()
+        assert ("damage",) in {hypothesis.effects for hypothesis in search.found}
+
+
 def test_specimens_do_not_hold_what_a_strong_gap_leaves():
     """Their deviations cost little beside a gap of forty times the noise; a refit must not end where they hold it."""
     made = waiting.campaign(waiting.DIAGNOSED["strong gap"])

@@ -69,6 +69,7 @@ class Search:
     _completed: int = 0
     _ended: set[str] = field(default_factory=set)
     _cut: bool = False
+    _candidates: list[Candidate] = field(default_factory=list)
     _weighed: WeakKeyDictionary[Refit, Evidence | str] = field(default_factory=WeakKeyDictionary)
 
     def __post_init__(self) -> None:
@@ -86,6 +87,7 @@ class Search:
         self._singles()
         if self.base.scatter.any:
             self._scatter_around_the_best()
+        self._passed_over()
         self._complete(1)
         self._try_with_unknown()
         self._begin(0.5, 0.65)
@@ -140,6 +142,21 @@ class Search:
             self.base = with_joint_noise(self.base, leading[0].refit)
             again = self._on_top_of(self.base, np.inf)
             self.found, self.refitting = again.found, again.refitting
+            self._screen()
+
+    def _passed_over(self) -> None:
+        """Single effects that were not begun, though no refit reached what set the measure.
+
+        A linearised gain may be one that no refit realises, and specimens may be taken for more than they are until
+        their deviations are found around the best effect.
+        """
+        there = {cause_key(fit.model.causes[0]) for fit in _of_one_cause(each.refit for each in self.found[1:])}
+        least = max(_least_promising(self._most_realised()), 0.0)
+        candidates = _first_of_each(self._candidates)
+        new = [each for each in candidates if each.gain > least and cause_key(each.cause) not in there]
+        begun = self._solved(self._jobs(self.base.refit, _alone(new), self.base.other_starts), SEARCH.first_steps)
+        limit = self._limit([*begun, *(each.refit for each in self.found[1:])])
+        self.found += self._judged(self._further([fit for fit in begun if fit.chi_square <= limit]))
 
     def reconsidered(self, base: BaseFit) -> list[Hypothesis]:
         """The leading hypotheses refitted on top of another base fit: the same law, another noise."""
@@ -212,11 +229,21 @@ class Search:
     def _something_left(self, best: Hypothesis) -> bool:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
 
-    def _singles(self) -> None:
+    def _screen(self) -> None:
+        """Where single effects may begin, most gain first."""
         started = self.base.candidates(self.effects, self.threads, self.skipping.screened)
         for start in self.base.other_starts if self.base.screens_other_starts else ():
             started += self._candidates_at(start)
-        candidates = self._credible(sorted(started, key=lambda candidate: -candidate.gain), self.base.refit)
+        started = sorted(started, key=lambda candidate: -candidate.gain)
+        self._candidates = self._credible(started, self.base.refit)
+
+    def _most_realised(self) -> float:
+        """Largest gain of a single effect that was refitted."""
+        return 0.5 * max((self.base.refit.chi_square - each.refit.chi_square for each in self.found[1:]), default=0.0)
+
+    def _singles(self) -> None:
+        self._screen()
+        candidates = self._candidates
         first = _promising(_first_of_each(candidates))
         base = self.base
         jobs = self._jobs(base.refit, _alone(first), base.other_starts)
@@ -751,7 +778,7 @@ def _promising_in_several(candidates: Sequence[Candidate]) -> list[tuple[Candida
 
     They are no further behind than a promising single one.
     """
-    least = _least_promising(candidates)
+    least = _least_promising(_most(candidates))
     alone: dict[str, float] = {}
     for candidate in candidates:
         alone.setdefault(candidate.cause.effect.name, candidate.gain)
@@ -783,12 +810,16 @@ def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
 
     Of a weak gap the linearised model says all; of a strong one it says at least where a search would not even begin.
     """
-    least = _least_promising(candidates)
+    least = _least_promising(_most(candidates))
     return [candidate for candidate in candidates if candidate.gain >= least and candidate.gain > 0.0]
 
 
-def _least_promising(candidates: Sequence[Candidate]) -> float:
-    best = max((candidate.gain for candidate in candidates), default=0.0)
+def _most(candidates: Iterable[Candidate]) -> float:
+    return max((candidate.gain for candidate in candidates), default=0.0)
+
+
+def _least_promising(best: float) -> float:
+    """Least that is not hopelessly below the best gain."""
     strong = best / (best + SEARCH.strong_gap) if best > 0.0 else 0.0
     return best - max(SEARCH.race_gain, (1.0 - SEARCH.race_fraction) * strong * best)
 
