@@ -124,6 +124,16 @@ def test_a_step_is_located_by_its_instant():
     assert step.p_value < 1e-3
 
 
+@pytest.mark.parametrize("kind", ["white", "correlated"])
+def test_a_slip_from_which_the_stress_recovers_is_seen(kind):
+    """Eight times the noise at once, and less by a factor of e after every 15 samples."""
+    since = np.arange(COUNT) - 306
+    fading = np.where(since >= 0, 0.32 * np.exp(-np.maximum(since, 0) / 15.0), 0.0)
+    step = find_steps(campaign(7, {2: fading}, kind))[0]
+    assert step.record == "fast"
+    assert step.p_value < 1e-3
+
+
 def test_a_parameter_that_depends_on_rate_drifts_along_it():
     """G + c log10(rate), c = 0.01 MPa per decade: the slope comes out within three of its errors."""
     records = gap_noise.records("white", np.random.default_rng(8), COUNT)

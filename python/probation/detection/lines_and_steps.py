@@ -219,13 +219,17 @@ def _step_filters(
 def _local_noise_sd(left: FloatArray, place: int) -> float:
     """Size of the noise around an instant, the step itself left out, over the usual one; not below 1.
 
-    The noise model may have missed a burst; a step is looked for with short windows, and would find it.
+    The noise model may have missed a burst; a step is looked for with short windows, and would find it. After a slip
+    the stress recovers: what follows a straight line there is no noise.
     """
     size = 1.0
     for reach in DETECTION.step_neighbours:
-        around = np.r_[max(place - reach, 0) : max(place - 1, 0), place + 2 : min(place + reach, len(left))]
-        if around.size > reach:
-            size = max(size, float(np.sqrt(np.mean(left[around] ** 2))))
+        before, after = left[max(place - reach, 0) : max(place - 1, 0)], left[place + 2 : place + reach]
+        if before.size + after.size > reach:
+            line = np.linalg.qr(np.vander(np.arange(after.size), 2))[0]
+            after = after - line @ (line.T @ after)
+            squares, freedom = float(before @ before + after @ after), before.size + after.size - line.shape[1]
+            size = max(size, float(np.sqrt(squares / freedom)))
     return size
 
 

@@ -181,8 +181,8 @@ def causes_of(
     trust = calibration.trust
     causes = judged(trust)
     more = leaves_more(causes)
-    if trust.left_by_forms and (more or causes.verdict == "unexplained"):
-        # Something is left that a further effect may be.
+    if trust.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
+        # What is left is no error of a form.
         causes = judged(replace(trust, left_by_forms=0.0))
         more = leaves_more(causes)
     return causes.with_unknown_added() if more else causes
