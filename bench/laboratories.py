@@ -1,7 +1,8 @@
 """Rows of docs/laboratories.md, from what `probation blind score --json` wrote, or from sealed folders.
 
 `python -m bench.laboratories SCORE.json|FOLDER…`: one row for each, and of several folders, answered, whose truths are
-opened, one of all their campaigns together; `--by-strain-noise`: one row for each class of strain noise that is there.
+opened, one of all their campaigns together; `--by-strain-noise`, `--by-strength`: one row for each class of strain
+noise, or of √λ of what acts, that is there.
 Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth, bootstrapped ones of the
 answer sets' size; older scores hold neither these nor alarms where replicates show how far specimens differ. After the
 calibration error stands what a calibrated solver with the same probabilities stays below in 95 % of repeats.
@@ -31,9 +32,10 @@ HEAD = (
     "95 % sets that hold the gap's truth", "their size, over the oracle's", "calibration error",
     "held-out explained fraction, over the oracle's",
 )  # fmt: skip
-BY_STRAIN_NOISE = (
-    "laboratory", "seeds", "strain noise", "false alarms", "single, resolvable: named",
-    "95 % sets that hold the gap's truth",
+CLASSES = {"by_strain_noise": "strain noise", "by_strength": "√λ"}
+"""By what campaigns are told apart, as scores and as readers call it."""
+BY_CLASS = (
+    "laboratory", "seeds", "false alarms", "single, resolvable: named", "95 % sets that hold the gap's truth",
 )  # fmt: skip
 
 
@@ -63,9 +65,14 @@ def row(content: dict) -> list[str]:
     ]
 
 
-def rows_by_strain_noise(content: dict) -> list[list[str]]:
-    """One of every class of strain noise that has campaigns."""
-    classes = content["scores"]["answers"]["by_strain_noise"]
+def head_by(key: str) -> tuple[str, ...]:
+    """Of the rows of a key of `CLASSES`."""
+    return (*BY_CLASS[:2], CLASSES[key], *BY_CLASS[2:])
+
+
+def rows_by(key: str, content: dict) -> list[list[str]]:
+    """One of every class of a key of `CLASSES` that has campaigns."""
+    classes = content["scores"]["answers"][key]
     return [
         [*source(content), name, rate(each["false_alarms"]), rate(each["single_named"]), rate(each["sets_hold"])]
         for name, each in classes.items()
@@ -128,12 +135,19 @@ def contents_of(paths: Sequence[Path]) -> list[dict]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scores", nargs="+", type=Path, help="what probation blind score --json wrote, or folders")
-    parser.add_argument("--by-strain-noise", action="store_true", help="one row for each class of strain noise")
+    for key, name in CLASSES.items():
+        parser.add_argument(
+            f"--{key.replace('_', '-')}",
+            dest="key",
+            action="store_const",
+            const=key,
+            help=f"one row for each class of {name}",
+        )
     chosen = parser.parse_args()
     with one_line(parser):
         contents = contents_of(chosen.scores)
-    if chosen.by_strain_noise:
-        head, rows = BY_STRAIN_NOISE, [each for content in contents for each in rows_by_strain_noise(content)]
+    if chosen.key:
+        head, rows = head_by(chosen.key), [each for content in contents for each in rows_by(chosen.key, content)]
     else:
         head, rows = HEAD, [row(content) for content in contents]
     lines = [head, ("---",) * len(head), *rows]

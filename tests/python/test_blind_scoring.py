@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bench.laboratories import BY_STRAIN_NOISE, HEAD, contents_of, row, rows_by_strain_noise
+from bench.laboratories import HEAD, contents_of, head_by, row, rows_by
 from scipy.stats import binom
 
 from probation.cli import main
@@ -189,13 +189,24 @@ def test_scores_by_strain_noise_count_every_campaign_once():
     quiet, usual = {"noise": {"strain": 1e-5}}, {"noise": {"strain": 1e-4}}
     truths = [_truth() | quiet, _truth(), *(_truth((name,)) | usual for name in ("damage", "self_heating", "damage"))]
     content = {"seeds": [3], "scores": {"answers": board(_cases(truths, lambda _: _diagnosis({("damage",): 1.0})))}}
-    lines = rows_by_strain_noise(content)
-    assert all(len(line) == len(BY_STRAIN_NOISE) for line in lines)
+    lines = rows_by("by_strain_noise", content)
+    assert all(len(line) == len(head_by("by_strain_noise")) for line in lines)
     assert [line[:3] for line in lines] == [["own", "3", "to 2e-5"], ["own", "3", "to 2e-4"]]
     assert [[cell.split(" (")[0] for cell in line[3:]] for line in lines] == [
         ["100 % of 2", "–", "–"],
         ["–", "67 % of 3", "67 % of 3"],
     ]
+
+
+def test_scores_by_strength_count_causes_alone():
+    """A null, and causes of a √λ of 10, 20 and 300, all declared damage."""
+    causes = [
+        _truth((name,)) | {"detectability": size} for name, size in (("damage", 10), ("damage", 20), ("lag", 300))
+    ]
+    cases = _cases([_truth(), *causes], lambda _: _diagnosis({("damage",): 1.0}))
+    lines = rows_by("by_strength", {"seeds": [3], "scores": {"answers": board(cases)}})
+    assert [line[2] for line in lines] == ["to 10", "to 30", "above"]
+    assert [line[4].split(" (")[0] for line in lines] == ["100 % of 1", "100 % of 1", "0 % of 1"]
 
 
 def test_shuffled_answers_score_chance():

@@ -26,6 +26,9 @@ _USUAL_STRAIN = 5e-4
 STRAIN_NOISES = {"to 2e-5": 2e-5, "to 2e-4": 2e-4, "above": np.inf}
 """Classes of the recorded strain's standard deviation, and the most of each."""
 
+STRENGTHS = {"to 10": 10.0, "to 30": 30.0, "above": np.inf}
+"""Classes of √λ of all that acts, and the most of each; from 30 on an effect is plain."""
+
 
 def board(cases: Sequence[Case]) -> dict[str, object]:
     """Every score, by stratum and by detectability; rates carry exact intervals."""
@@ -44,7 +47,8 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
         ),
         "false_alarms": Rate.of(case.answer.gap for case in nulls).plain(),
         "false_alarms_by_kind": false_alarms(nulls),
-        "by_strain_noise": {name: _quality(each) for name, each in by_strain_noise(cases, STRAIN_NOISES).items()},
+        "by_strain_noise": _by(STRAIN_NOISES, cases, lambda case: case.strain_noise),
+        "by_strength": _by(STRENGTHS, [case for case in cases if case.causes], lambda case: case.detectability),
         "detection": {
             name: Rate.of(case.answer.gap for case in cases if case.causes and case.detectability_class == name).plain()
             for name, _, _ in DETECTABILITIES
@@ -72,10 +76,13 @@ def false_alarms(nulls: Sequence[Case]) -> dict[str, object]:
     }
 
 
-def by_strain_noise(cases: Sequence[Case], most: Mapping[str, float]) -> dict[str, list[Case]]:
-    """The cases of every class of the strain's noise, by name; `most` of each, rising."""
-    classes = np.searchsorted(list(most.values()), [case.strain_noise for case in cases])
-    return {name: [case for case, of in zip(cases, classes, strict=True) if of == k] for k, name in enumerate(most)}
+def _by(most: Mapping[str, float], cases: Sequence[Case], size: Callable[[Case], float]) -> dict[str, object]:
+    """Quality of the cases of every class of a size; `most` of each, rising."""
+    classes = np.searchsorted(list(most.values()), [size(case) for case in cases])
+    return {
+        name: _quality([case for case, of in zip(cases, classes, strict=True) if of == k])
+        for k, name in enumerate(most)
+    }
 
 
 def _quality(cases: Sequence[Case]) -> dict[str, object]:
