@@ -16,6 +16,8 @@ from probation.inference.form_error import form_freedom
 from probation.inference.refit import Ended, Refit, reached, refit
 from probation.inference.remembering import RememberingModel
 from probation.inference.unsolvable import UNSOLVABLE
+from probation.noise.outliers import without_outliers
+from probation.noise.own_deviations import are_usual
 from probation.parallel import Copies
 from probation.settings.search import SEARCH
 
@@ -136,10 +138,10 @@ class Refitting:
     def refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
-        With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
-        they do not explain. So the search for specimens that are alike comes first there, and ends where the next steps
-        of specimens that differ would leave more, unless there it explains less than no effect does: a fault in one
-        record pulls the law of specimens that are alike. Elsewhere a refit of specimens that differ comes first.
+        A refit in which no specimen deviates unusually is right. With a strong gap, deviations of many standard
+        deviations cost little, and the misfit counts only along what they do not explain. So the search for specimens
+        that are alike comes next there, and ends where the next steps of specimens that differ would leave more, unless
+        there it explains less than no effect does: a fault in one record pulls the law of specimens that are alike.
         """
         if not self.base.scatter.any:
             return refit(self.base.problem.with_model(model), start, most_steps=steps)
@@ -160,10 +162,12 @@ class Refitting:
             first = start
             with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
                 misfit = float(np.sum(problem.residual_and_jacobian(first)[0] ** 2))
-        if misfit <= len(self.base.whitened) + SEARCH.strong_gap:
-            fit = refit(problem, start, most_steps=steps)
-            if not specimens_hold_the_gap(model, noises, first, fit.parameters):
-                return fit
+        fit = refit(problem, start, most_steps=steps)
+        weak = misfit <= len(self.base.whitened) + SEARCH.strong_gap
+        if self._specimens_are_usual(fit) or (
+            weak and not specimens_hold_the_gap(model, noises, first, fit.parameters)
+        ):
+            return fit
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         apart = min(steps, SEARCH.steps_apart)
@@ -180,6 +184,12 @@ class Refitting:
         fit = refit(problem, begun.parameters, most_steps=steps)
         held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
         return there if held else fit
+
+    def _specimens_are_usual(self, fit: Refit) -> bool:
+        """Whether the specimens' deviations at a refit are what specimens may do."""
+        residual, noises = fit.model.residual(fit.parameters), self.base.whitened.noises
+        own = [without_outliers(residual[fit.model.rows(noise.name)], noise.outliers) for noise in noises]
+        return are_usual(own, noises)
 
     def _without_effect(self, model: CampaignModel) -> FloatArray:
         """The base fit as parameters of a model whose causes are absent."""

@@ -10,7 +10,7 @@ from scipy.special import chdtri
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from probation._arrays import FloatArray
     from probation.noise.model import NoiseModel
@@ -30,6 +30,27 @@ def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
         With the specimens' scatter.
     """
     parts = [np.zeros(len(residual)) for residual in residuals]
+    for members, size in _sizes(residuals, noises):
+        shortened = min(1.0, _usual(size) / max(float(np.linalg.norm(size)), 1e-300)) * size
+        for index in members:
+            columns = noises[index].specimen
+            assert columns is not None
+            parts[index] = columns @ shortened
+    return parts
+
+
+def are_usual(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> bool:
+    """Whether no specimen deviates by more than all but `NOISE.unusual_specimen` of them do; as `own_deviations`."""
+    return all(float(np.linalg.norm(size)) <= _usual(size) for _, size in _sizes(residuals, noises))
+
+
+def _usual(size: FloatArray) -> float:
+    """Longest that deviations of so many kinds usually are [standard deviations]."""
+    return float(np.sqrt(chdtri(len(size), NOISE.unusual_specimen)))
+
+
+def _sizes(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> Iterator[tuple[list[int], FloatArray]]:
+    """Records of each specimen, and its most probable deviations over their standard deviations, shape (k,)."""
     for members in specimens_of(noises):
         normal, pull = np.zeros(()), np.zeros(())
         for index in members:
@@ -40,16 +61,8 @@ def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
             white = noise.whiten(np.column_stack([columns, residuals[index]]))
             normal = normal + white[:, :-1].T @ white[:, :-1]
             pull = pull + white[:, :-1].T @ white[:, -1]
-        if not normal.ndim:
-            continue
-        size = np.linalg.solve(np.eye(len(normal)) + normal, pull)
-        most = float(np.sqrt(chdtri(len(size), NOISE.unusual_specimen)))
-        size *= min(1.0, most / max(float(np.linalg.norm(size)), 1e-300))
-        for index in members:
-            columns = noises[index].specimen
-            assert columns is not None
-            parts[index] = columns @ size
-    return parts
+        if normal.ndim:
+            yield members, np.asarray(np.linalg.solve(np.eye(len(normal)) + normal, pull))
 
 
 def specimen_columns(noises: Sequence[NoiseModel], slices: Sequence[slice]) -> list[FloatArray]:
