@@ -12,6 +12,7 @@ from campaigns.few_records import damage, few_records, offset
 from probation.diagnosis import diagnose
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.hypothesis import Hypothesis
+from probation.diagnosis.refitting import Refitting
 from probation.diagnosis.search import Search, _first_of_each
 from probation.effects.cause import Cause
 from probation.effects.registry import effect, effects
@@ -70,15 +71,16 @@ def two_effects():
     return few_records(both)
 
 
-def specimens_that_differ():
+def specimens_that_differ(seed=0, loss=0.3, late=2.0):
     """The same two, in six specimens that differ by 2 % in E_u and by 3 % in tau_max and G, two at each rate."""
-    random, records = np.random.default_rng(0), []
+    random, records = np.random.default_rng(seed), []
     for rate, copy in itertools.product((1e-3, 5e-3, 2e-2), "ab"):
         e_u, tau, g = 1.0 + np.array([0.02, 0.03, 0.03]) * random.standard_normal(3)
         law = probation.Law(unrelaxed_modulus=1500.0 * e_u, tau_max=30.0 * tau, hardening_modulus=2.0 * g)
         time = np.linspace(0.0, 0.4 / rate, SAMPLES)
         strain, name = rate * time, f"{rate:g}{copy}"
-        stress = offset(2.0, "0.005b")(name, time, strain, law.stress(time, strain, "exact") * (1.0 - 0.3 * strain**2))
+        lost = law.stress(time, strain, "exact") * (1.0 - loss * strain**2)
+        stress = offset(late, "0.005b")(name, time, strain, lost)
         stress = stress + NOISE * random.standard_normal(SAMPLES)
         records.append(
             probation.Record(id=name, time=time, true_strain=strain, true_stress=stress, noise=Noise(strain=0.0))
@@ -246,6 +248,20 @@ def test_specimens_do_not_hold_what_a_strong_gap_leaves():
     assert left(anywhere.parameters) > 3.0 * left(start)
     [found] = Search(base, effects(("damage",)), 1)._solved([(model, start)], MOST_STEPS)
     assert left(found.parameters) < 1.3 * left(start)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_right_effect_is_reached_though_specimens_differ(seed):
+    """A loss of 0.4 at a strain of 1, as the square of the strain; specimens alike would bear it out much worse."""
+    made, [considered] = specimens_that_differ(seed, loss=0.4, late=0.0), effects(("damage",))
+    base = base_fit(made, plain_fit(made, "sa3", None))
+    model = base.model.with_causes([Cause(considered, considered.form("growing"), None)])
+    refitting = Refitting(base, [considered], 1)
+    found = refitting.refit(model, model.parameters(base.parameters, (0.1, 1.0)), 40)
+    refitting.close()
+    count = len(base.whitened)
+    assert found.chi_square < count + 3.0 * np.sqrt(2.0 * count) < 0.1 * base.refit.chi_square
+    assert found.parameters[-2:] == pytest.approx([0.42, 2.05], rel=0.1)
 
 
 def test_variants_of_a_form_are_for_the_search_and_not_for_the_test_for_a_gap():
