@@ -151,7 +151,8 @@ class Search:
         their deviations are found around the best effect.
         """
         there = {cause_key(fit.model.causes[0]) for fit in _of_one_cause(each.refit for each in self.found[1:])}
-        least = max(_least_promising(self._most_realised()), 0.0)
+        reached = self._most_realised()
+        least = max(min(reached - SEARCH.race_gain, SEARCH.passed_over * reached), 0.0)
         candidates = _first_of_each(self._candidates)
         new = [each for each in candidates if each.gain > least and cause_key(each.cause) not in there]
         begun = self._solved(self._jobs(self.base.refit, _alone(new), self.base.other_starts), SEARCH.first_steps)
@@ -778,7 +779,7 @@ def _promising_in_several(candidates: Sequence[Candidate]) -> list[tuple[Candida
 
     They are no further behind than a promising single one.
     """
-    least = _least_promising(_most(candidates))
+    least = _least_promising(candidates)
     alone: dict[str, float] = {}
     for candidate in candidates:
         alone.setdefault(candidate.cause.effect.name, candidate.gain)
@@ -810,16 +811,12 @@ def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
 
     Of a weak gap the linearised model says all; of a strong one it says at least where a search would not even begin.
     """
-    least = _least_promising(_most(candidates))
+    least = _least_promising(candidates)
     return [candidate for candidate in candidates if candidate.gain >= least and candidate.gain > 0.0]
 
 
-def _most(candidates: Iterable[Candidate]) -> float:
-    return max((candidate.gain for candidate in candidates), default=0.0)
-
-
-def _least_promising(best: float) -> float:
-    """Least that is not hopelessly below the best gain."""
+def _least_promising(candidates: Sequence[Candidate]) -> float:
+    best = max((candidate.gain for candidate in candidates), default=0.0)
     strong = best / (best + SEARCH.strong_gap) if best > 0.0 else 0.0
     return best - max(SEARCH.race_gain, (1.0 - SEARCH.race_fraction) * strong * best)
 

@@ -29,6 +29,11 @@ class SearchSettings:
         40.0, "log evidence", "A cause is raced if its linearised gain is within so much of the best one's."
     )
     race_fraction: float = chosen(0.02, "-", "For a strong gap, if it is this part of the best one's.")
+    passed_over: float = chosen(
+        0.5,
+        "-",
+        "A cause that was not raced is, after all, if its linearised gain is this part of what the best one gained.",
+    )
     strong_gap: float = chosen(
         100.0, "log evidence", "Linearised gain, or misfit beyond its expectation, from which on a gap is strong."
     )
