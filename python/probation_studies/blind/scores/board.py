@@ -47,8 +47,8 @@ def board(cases: Sequence[Case]) -> dict[str, object]:
         ),
         "false_alarms": Rate.of(case.answer.gap for case in nulls).plain(),
         "false_alarms_by_kind": false_alarms(nulls),
-        "by_strain_noise": _by(STRAIN_NOISES, cases, lambda case: case.strain_noise),
-        "by_strength": _by(STRENGTHS, [case for case in cases if case.causes], lambda case: case.detectability),
+        "by_strain_noise": {name: _quality(each) for name, each in by_strain_noise(cases, STRAIN_NOISES).items()},
+        "by_strength": {name: _quality(each) for name, each in by_strength(cases, STRENGTHS).items()},
         "detection": {
             name: Rate.of(case.answer.gap for case in cases if case.causes and case.detectability_class == name).plain()
             for name, _, _ in DETECTABILITIES
@@ -76,13 +76,22 @@ def false_alarms(nulls: Sequence[Case]) -> dict[str, object]:
     }
 
 
-def _by(most: Mapping[str, float], cases: Sequence[Case], size: Callable[[Case], float]) -> dict[str, object]:
-    """Quality of the cases of every class of a size; `most` of each, rising."""
+def in_classes(
+    most: Mapping[str, float], cases: Sequence[Case], size: Callable[[Case], float]
+) -> dict[str, list[Case]]:
+    """The cases of every class of a size, by name; `most` of each, rising."""
     classes = np.searchsorted(list(most.values()), [size(case) for case in cases])
-    return {
-        name: _quality([case for case, of in zip(cases, classes, strict=True) if of == k])
-        for k, name in enumerate(most)
-    }
+    return {name: [case for case, of in zip(cases, classes, strict=True) if of == k] for k, name in enumerate(most)}
+
+
+def by_strain_noise(cases: Sequence[Case], most: Mapping[str, float]) -> dict[str, list[Case]]:
+    """The cases of every class of the strain's noise."""
+    return in_classes(most, cases, lambda case: case.strain_noise)
+
+
+def by_strength(cases: Sequence[Case], most: Mapping[str, float]) -> dict[str, list[Case]]:
+    """Those with causes, of every class of √λ."""
+    return in_classes(most, [case for case in cases if case.causes], lambda case: case.detectability)
 
 
 def _quality(cases: Sequence[Case]) -> dict[str, object]:
