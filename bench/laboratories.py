@@ -33,7 +33,7 @@ HEAD = (
     "held-out explained fraction, over the oracle's",
 )  # fmt: skip
 CLASSES = {"by_strain_noise": "strain noise", "by_strength": "√λ"}
-"""By what campaigns are told apart, as scores and as readers call it."""
+"""By what campaigns are classed, as scores and as readers call it."""
 BY_CLASS = (
     "laboratory", "seeds", "false alarms", "single, resolvable: named", "95 % sets that hold the gap's truth",
 )  # fmt: skip

@@ -81,7 +81,8 @@ def test_a_large_fault_is_found_with_its_size(faulty, fault, effect, parameter, 
     assert found.verdict == "explained"
     assert best.effects == (effect,)
     assert best.probability > 0.5
-    assert found.effects[0].probability > 0.65  # what was passed over at first is weighed, too
+    # In specimens that may differ a strain that settles comes to within 7 log units of the slow filter.
+    assert found.effects[0].probability > (0.68 if effect == "force_strain_lag" else 0.7)
     assert set(best.records) == faulty
     value = next(each.value for each in best.parameters if each.name == parameter)
     assert value == pytest.approx(size, rel=0.02)

@@ -16,7 +16,6 @@ from probation.inference.refit import Ended, Refit, refit
 from probation.inference.unknown import UNKNOWN
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.mean_square import mean_square
-from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import own_deviations
 from probation.parallel import in_parallel
 from probation.settings.evidence import EVIDENCE
@@ -238,7 +237,7 @@ def _mean_square(base: BaseFit, fit: Refit) -> float:
     """Of the errors on the fitted records [MPa^2]; of the whitened ones where specimens differ."""
     if _differ(base):
         return fit.chi_square / len(fit.residual)
-    return mean_square(_errors(base, fit), base.whitened.noises)
+    return mean_square(base.residual_of(fit), base.whitened.noises)
 
 
 def _above_noise(base: BaseFit, square: float, closure: Closure) -> bool:
@@ -250,7 +249,7 @@ def _above_noise(base: BaseFit, square: float, closure: Closure) -> bool:
 
 def _misfit(base: BaseFit, fit: Refit | None) -> float:
     """Root mean square of the errors, each specimen having its own deviations [MPa]."""
-    errors = _errors(base, base.refit if fit is None else fit)
+    errors = base.residual_of(base.refit if fit is None else fit)
     own = own_deviations(errors, base.whitened.noises)
     left = [error - part for error, part in zip(errors, own, strict=True)]
     return float(np.sqrt(mean_square(left, base.whitened.noises)))
@@ -259,12 +258,6 @@ def _misfit(base: BaseFit, fit: Refit | None) -> float:
 def _differ(base: BaseFit) -> bool:
     """Whether specimens may differ."""
     return any(noise.specimen is not None for noise in base.whitened.noises)
-
-
-def _errors(base: BaseFit, fit: Refit) -> list[FloatArray]:
-    """The fit residual by record, outliers set apart [MPa]."""
-    raw = fit.model.residual(fit.parameters)
-    return [without_outliers(raw[fit.model.rows(noise.name)], noise.outliers) for noise in base.whitened.noises]
 
 
 def _shares(

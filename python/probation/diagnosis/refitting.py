@@ -16,7 +16,6 @@ from probation.inference.form_error import form_freedom
 from probation.inference.refit import Ended, Refit, reached, refit
 from probation.inference.remembering import RememberingModel
 from probation.inference.unsolvable import UNSOLVABLE
-from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import are_usual
 from probation.parallel import Copies
 from probation.settings.search import SEARCH
@@ -138,7 +137,7 @@ class Refitting:
     def refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
-        A refit in which no specimen deviates unusually is right. With a strong gap, deviations of many standard
+        A refit in which no specimen deviates unusually is taken. With a strong gap, deviations of many standard
         deviations cost little, and the misfit counts only along what they do not explain. So the search for specimens
         that are alike comes next there, and ends where the next steps of specimens that differ would leave more, unless
         there it explains less than no effect does: a fault in one record pulls the law of specimens that are alike.
@@ -187,9 +186,7 @@ class Refitting:
 
     def _specimens_are_usual(self, fit: Refit) -> bool:
         """Whether the specimens' deviations at a refit are what specimens may do."""
-        residual, noises = fit.model.residual(fit.parameters), self.base.whitened.noises
-        own = [without_outliers(residual[fit.model.rows(noise.name)], noise.outliers) for noise in noises]
-        return are_usual(own, noises)
+        return are_usual(self.base.residual_of(fit), self.base.whitened.noises)
 
     def _without_effect(self, model: CampaignModel) -> FloatArray:
         """The base fit as parameters of a model whose causes are absent."""

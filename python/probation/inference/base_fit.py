@@ -27,6 +27,7 @@ from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
 from probation.noise.drift import estimate_drift, like_an_effect, with_drift
 from probation.noise.mean_square import mean_square
+from probation.noise.outliers import without_outliers
 from probation.noise.own_deviations import own_deviations, specimen_columns
 from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
@@ -140,6 +141,12 @@ class BaseFit:
         """The identify records' residuals without outliers and their specimens' own deviations [MPa]."""
         clean = [self.whitened.clean(index) for index in range(len(self.whitened.records))]
         return [whole - own for whole, own in zip(clean, own_deviations(clean, self.whitened.noises), strict=True)]
+
+    def residual_of(self, fit: Refit) -> list[FloatArray]:
+        """What a refit of these records leaves of each, outliers set apart, shape (n_r,) [MPa]."""
+        residual = fit.model.residual(fit.parameters)
+        noises = self.whitened.noises
+        return [without_outliers(residual[fit.model.rows(noise.name)], noise.outliers) for noise in noises]
 
     @property
     def misfit(self) -> tuple[float, float]:

@@ -32,7 +32,8 @@ class SearchSettings:
     passed_over: float = chosen(
         0.5,
         "-",
-        "A cause that was not raced is, after all, if its linearised gain is this part of what the best one gained.",
+        "A cause that was not raced is, after all, if its linearised gain is this part of what the best one gained, or "
+        "within `race_gain` of it.",
     )
     strong_gap: float = chosen(
         100.0, "log evidence", "Linearised gain, or misfit beyond its expectation, from which on a gap is strong."
