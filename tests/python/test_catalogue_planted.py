@@ -107,6 +107,22 @@ def test_a_ripple_of_one_test_is_no_noise():
     assert found.curves["at-0.002"].noise_MPa == pytest.approx(0.04, rel=0.3)
 
 
+def test_the_pitch_of_a_screw_is_no_noise():
+    """Seven times the noise, once in an elongation of 0.12, at constant true strain rates: noise, until it was."""
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [0.9])
+        turned = 2.0 * np.pi * np.expm1(strain) / 0.12
+        wave = 0.3 * (np.sin(turned + 1.0) + 0.25 * np.sin(2.0 * turned + 0.5)) * np.exp(strain)
+        made.append(replace(record(f"at-{rate:g}", time, strain, LAW.stress(time, strain) + wave, seed), noise=Noise()))
+    found = named(campaign(made), "periodic_disturbance")
+    assert found.best.forms == ("screw_force",)
+    assert value(found, "period_elongation") == pytest.approx(0.12, rel=0.01)
+    assert abs(value(found, "wave_MPa")) == pytest.approx(0.3, rel=0.1)
+    for curve in found.curves.values():
+        assert curve.noise_MPa == pytest.approx(0.04, rel=0.3)
+
+
 def at_constant_speed(of_record):
     """Three speeds of the crosshead; `of_record(time, travel, stress)` gives what is read of travel and stress."""
     made = []

@@ -676,13 +676,19 @@ def test_a_prestress_relaxes_with_the_modes_that_carry_it(form, values, cut):
     np.testing.assert_allclose(found - LAW.stress(record.time, record.true_strain, scheme="sa2"), expected, atol=1e-9)
 
 
-def test_waves_on_force_stress_and_strain():
+def test_waves_on_force_stress_and_strain_over_time_and_over_the_elongation():
     wave = np.sin(2.0 * np.pi * 0.05 * np.linspace(0.0, 200.0, 400) + 0.7)
     found, _, strain = faulty("periodic_disturbance", "force", (0.3, 0.05, 0.7))
     np.testing.assert_allclose(found - 1000.0 * strain, 0.3 * wave * np.exp(strain), atol=1e-10)
     found, _, strain = faulty("periodic_disturbance", "stress", (0.3, 0.05, 0.7))
     np.testing.assert_allclose(found - 1000.0 * strain, 0.3 * wave, atol=1e-10)
     found, _, strain = faulty("periodic_disturbance", "strain", (1e-4, 0.05, 0.7))
+    np.testing.assert_allclose(found - 1000.0 * strain, 0.1 * (wave - wave[0]), atol=1e-10)
+    found, _, strain = faulty("periodic_disturbance", "screw_force", (0.3, 0.02, 0.7, 0.5, 0.2))
+    turned = 2.0 * np.pi * np.expm1(strain) / 0.02
+    wave = np.sin(turned + 0.7) + 0.5 * np.sin(2.0 * turned + 0.2)
+    np.testing.assert_allclose(found - 1000.0 * strain, 0.3 * wave * np.exp(strain), atol=1e-10)
+    found, _, strain = faulty("periodic_disturbance", "screw_strain", (1e-4, 0.02, 0.7, 0.5, 0.2))
     np.testing.assert_allclose(found - 1000.0 * strain, 0.1 * (wave - wave[0]), atol=1e-10)
 
 

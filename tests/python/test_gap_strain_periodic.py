@@ -40,7 +40,7 @@ def test_teeth_of_one_pitch_in_all_records_are_found_where_no_record_shows_them_
     best = found[0]
     assert best.record is None
     assert best.p_value < 1e-3
-    assert abs(best.period_strain - 0.07) < 0.003
+    assert abs(best.period - 0.07) < 0.003
     assert min(each.p_value for each in found if each.record) > 100.0 * best.p_value
 
 
@@ -58,7 +58,7 @@ def test_teeth_that_a_noise_model_holds_for_rough_noise_are_found_by_their_comb(
     best = find_strain_periodic(seen)[0]
     assert best.record is None
     assert best.p_value < 1e-10
-    assert best.period_strain == pytest.approx(0.1, rel=0.02)
+    assert best.period == pytest.approx(0.1, rel=0.02)
     waves, _ = strain_periodic_waves(seen)
     assert np.sum(waves**2) == pytest.approx(1.0)
     told = seen.whiten([(record.residual - rough)[:, None] for record, rough in zip(records, noise(3, 3), strict=True)])
@@ -98,7 +98,7 @@ def test_a_ripple_of_one_record_is_found_there():
     best = next(each for each in find_strain_periodic(whitened(residuals)[0]) if each.record)
     assert best.record == "r2"
     assert best.p_value < 1e-4
-    assert abs(best.period_strain - 0.05) < 0.002
+    assert abs(best.period - 0.05) < 0.002
 
 
 def test_noise_makes_few_ripples():

@@ -96,27 +96,26 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         best = int(np.argmax(power / level))
         single = float(np.exp(-power[best] / level[best]))
         tried = len(power) * len(whitened.records)
-        _, parts = fitted_sine(whitened, index, left, white, frequency[best])
+        _, parts = fitted_waves(whitened, index, left, white, 2.0 * np.pi * frequency[best] * record.time[:, None])
         p_value = smallest_of_many(single, tried)
         lines.append(Line(record.name, float(frequency[best]), float(np.hypot(*parts)), p_value))
     return tuple(sorted(lines, key=lambda line: line.p_value))
 
 
-def fitted_sine(
+def fitted_waves(
     whitened: Whitened,
     index: int,
     left: FloatArray,
     white: FloatArray,
-    frequency: float,
+    phases: FloatArray,
     growth: FloatArray | None = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Cosine and sine of a frequency [Hz] over a record, shape (n, 2), and their sizes [MPa], shape (2,).
+    """Cosines and sines of phases (n, m) over a record, shape (n, 2 m), and their sizes [MPa], shape (2 m,).
 
-    By least squares of what `left_by_slow_waves` leaves, with the columns that it takes out. With a `growth` (n,) two
-    more follow, in proportion to it.
+    By least squares of what `left_by_slow_waves` leaves, with the columns that it takes out. With a `growth` (n,) as
+    many more follow, in proportion to it.
     """
-    phase = 2.0 * np.pi * frequency * whitened.records[index].time
-    waves = np.column_stack([np.cos(phase), np.sin(phase)])
+    waves = np.hstack([np.cos(phases), np.sin(phases)])
     if growth is not None:
         waves = np.hstack([waves, waves * growth[:, None]])
     seen = whitened.noises[index].whiten(waves)

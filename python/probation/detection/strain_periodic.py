@@ -1,5 +1,5 @@
 """The strain-periodic component: a gap that is periodic in the strain. Serrated flow, a neck that sticks and slips, a
-wavy scale.
+wavy scale; a screw, whose turns are alike in the elongation, not in the true strain.
 
 A wavy scale has one frequency. Teeth have as many as there are samples to show them: a noise model that grows to hold
 the first few still knows nothing of their comb.
@@ -8,7 +8,7 @@ the first few still knows nothing of their comb.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 from scipy.fft import next_fast_len, rfft
@@ -21,7 +21,7 @@ from probation.noise.smooth_basis import waves
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
@@ -35,6 +35,16 @@ GRID = 16
 """Cells per period of the shortest wave whose power is taken: it loses 1 % in them."""
 
 
+Coordinate = Literal["true_strain", "elongation"]
+COORDINATES: tuple[Coordinate, ...] = get_args(Coordinate)
+"""In which something may be periodic: the elongation is nominal strain, e^(true strain) - 1, as a screw moves."""
+
+
+def along(coordinate: Coordinate, true_strain: FloatArray) -> FloatArray:
+    """A coordinate of the samples, shape (n,) [-]."""
+    return np.expm1(true_strain) if coordinate == "elongation" else true_strain
+
+
 @dataclass(frozen=True)
 class StrainPeriodic:
     """The strongest strain-periodic component of a record, or of all together.
@@ -43,7 +53,12 @@ class StrainPeriodic:
     ----------
     record : str or None
         None for all.
-    period_strain : float
+    coordinate : {"true_strain", "elongation"}
+        In which it is periodic.
+    harmonics : int
+        So many of them showed it.
+    period : float
+        Of the coordinate [-].
     p_value : float
         Over all periods of all records.
     power : float
@@ -53,7 +68,9 @@ class StrainPeriodic:
     """
 
     record: str | None
-    period_strain: float
+    coordinate: Coordinate
+    harmonics: int
+    period: float
     p_value: float
     power: float
     tried: float
@@ -69,46 +86,57 @@ class StrainPeriodic:
 
 
 def find_strain_periodic(whitened: Whitened) -> tuple[StrainPeriodic, ...]:
-    """The strongest part of every record, and of all together, that is periodic in the recorded strain, by p-value.
+    """The strongest part of every record, and of all together, that is periodic in the strain, by p-value.
 
-    As `gap.sharp.find_lines`, over the strain: where the strain rate changes, teeth of one pitch are no line in time.
-    What is a material's has one period in all records, so that their powers add up, as do those of its harmonics.
+    As `find_lines`, over the recorded true strain and over the elongation: where the strain rate changes, teeth of one
+    pitch are no line in time. What is a material's has one period in all records, so that their powers add up, as do
+    those of its harmonics.
 
     Parameters
     ----------
     whitened : Whitened
     """
-    longest = max(float(np.ptp(record.true_strain)) for record in whitened.records)
+    best: dict[str | None, StrainPeriodic] = {}
+    for coordinate in COORDINATES:
+        for candidate in _along(coordinate, whitened):
+            if candidate.record not in best or candidate.p_value < best[candidate.record].p_value:
+                best[candidate.record] = candidate
+    return tuple(sorted(best.values(), key=lambda component: component.p_value))
+
+
+def _along(coordinate: Coordinate, whitened: Whitened) -> Iterator[StrainPeriodic]:
+    """The strongest part of every record and of all together for each number of harmonics, in one coordinate."""
+    places = [along(coordinate, record.true_strain) for record in whitened.records]
+    longest = max(float(np.ptp(place)) for place in places)
     spectra = [
-        _Spectrum.of(whitened, index, longest)
-        for index, record in enumerate(whitened.records)
-        if len(record) >= DETECTION.fewest_for_lines * DETECTION.slowest_line
-        and float(np.ptp(record.true_strain)) > DETECTION.least_strain_share * longest > 0.0
+        _Spectrum.of(whitened, index, place, longest)
+        for index, place in enumerate(places)
+        if len(place) >= DETECTION.fewest_for_lines * DETECTION.slowest_line
+        and float(np.ptp(place)) > DETECTION.least_strain_share * longest > 0.0
     ]
     if not spectra:
-        return ()
+        return
     most = max(spectrum.count for spectrum in spectra)
-    families = len(DETECTION.harmonics) * (len(spectra) + 1)
-    best: dict[str | None, StrainPeriodic] = {}
+    families = len(COORDINATES) * len(DETECTION.harmonics) * (len(spectra) + 1)
     for harmonics in DETECTION.harmonics:
         step = DETECTION.oversampling * harmonics
         frequency = np.arange(step * DETECTION.slowest_line // 2, step * most // DETECTION.shortest_strain_period) / (
             step * longest
         )
         together, terms = np.zeros(len(frequency)), np.zeros(len(frequency))
-        components = []
+        names: list[str | None] = []
+        strongest = []
         for spectrum in spectra:
             power, count = spectrum.comb(frequency, harmonics)
             together, terms = together + power, terms + count
-            components.append(_strongest(spectrum.record, frequency, power, count, step, families))
+            names.append(spectrum.record)
+            strongest.append(_strongest(frequency, power, count, step, families))
         if len(spectra) > 1:
-            components.append(_strongest(None, frequency, together, terms, step, families))
-        for candidate in components:
-            if candidate is not None and (
-                candidate.record not in best or candidate.p_value < best[candidate.record].p_value
-            ):
-                best[candidate.record] = candidate
-    return tuple(sorted(best.values(), key=lambda component: component.p_value))
+            names.append(None)
+            strongest.append(_strongest(frequency, together, terms, step, families))
+        for name, found in zip(names, strongest, strict=True):
+            if found is not None:
+                yield StrainPeriodic(name, coordinate, harmonics, *found)
 
 
 def strain_periodic_waves(whitened: Whitened) -> tuple[FloatArray, float]:
@@ -136,7 +164,7 @@ def strain_periodic_waves(whitened: Whitened) -> tuple[FloatArray, float]:
     largest = max(float(np.max(np.abs(record.true_strain))) for record in whitened.records)
     parts = []
     for record in whitened.records:
-        phase = 2.0 * np.pi / component.period_strain * np.outer(record.true_strain, orders)
+        phase = 2.0 * np.pi / component.period * np.outer(along(component.coordinate, record.true_strain), orders)
         within = 1.0 if component.record in (None, record.name) else 0.0
         wave = within * np.hstack([np.cos(phase), np.sin(phase)])
         parts.append(np.hstack([wave, wave * (record.true_strain / largest)[:, None]]))
@@ -204,22 +232,22 @@ class _Spectrum:
     power: FloatArray
 
     @classmethod
-    def of(cls, whitened: Whitened, index: int, longest: float) -> _Spectrum:
+    def of(cls, whitened: Whitened, index: int, place: FloatArray, longest: float) -> _Spectrum:
         """Over the noise model or the power of the neighbouring frequencies, whichever is larger."""
         record = whitened.records[index]
-        extent = float(np.ptp(record.true_strain))
+        extent = float(np.ptp(place))
         left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
         most = _height(np.abs(left))
         left = np.clip(left, -most, most)
         spacing = 1.0 / (FREQUENCIES_PER_SPACING * longest)
         count = int(len(record) / (DETECTION.shortest_harmonic * extent * spacing)) + 1
-        power = _power(record.true_strain, left, spacing, count)
+        power = _power(place, left, spacing, count)
         level = running_median(
             power, DETECTION.line_neighbours * FREQUENCIES_PER_SPACING // DETECTION.oversampling
         ) / np.log(2.0)
         level = np.maximum(level, 1.0)
         for column in speed_wander_in(whitened, index, white).T:
-            level += _power(record.true_strain, column, spacing, count)
+            level += _power(place, column, spacing, count)
         return cls(record.name, len(record), extent, spacing, power / level)
 
     def comb(self, frequency: FloatArray, harmonics: int) -> tuple[FloatArray, FloatArray]:
@@ -258,9 +286,12 @@ def _power(strain: FloatArray, values: FloatArray, spacing: float, count: int) -
 
 
 def _strongest(
-    record: str | None, frequency: FloatArray, power: FloatArray, terms: FloatArray, step: int, families: int
-) -> StrainPeriodic | None:
-    """The least probable sum of so many exponential variables, among all frequencies of so many families."""
+    frequency: FloatArray, power: FloatArray, terms: FloatArray, step: int, families: int
+) -> tuple[float, float, float, float] | None:
+    """The least probable sum of so many exponential variables, among all frequencies of so many families.
+
+    Its period, p-value and power, and how many periods were tried.
+    """
     tried = np.flatnonzero(terms)
     if not tried.size:
         return None
@@ -268,4 +299,4 @@ def _strongest(
     best = int(np.argmin(chances))
     p_value = smallest_of_many(float(chances[best]), tried.size * families)
     at = tried[best]
-    return StrainPeriodic(record, 1.0 / float(frequency[at]), p_value, float(power[at]), tried.size / step)
+    return 1.0 / float(frequency[at]), p_value, float(power[at]), tried.size / step

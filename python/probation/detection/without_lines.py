@@ -1,8 +1,4 @@
-"""A line in a residual is no noise: it is taken out before the noise is estimated.
-
-An ARMA(1,1) has no line in its spectrum. Where a residual has one, the process takes it for noise with a long memory:
-a ripple of 0.5 MPa in noise of 0.17 MPa was noise of 0.85 MPa, in which nothing shows.
-"""
+"""Records without a wave: of one frequency in time, or periodic in the strain."""
 
 from __future__ import annotations
 
@@ -11,48 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.detection.lines_and_steps import Line, find_lines, fitted_sine, left_by_slow_waves, uneven_power
-from probation.noise.estimate import estimate_noise
+from probation.detection.lines_and_steps import find_lines, fitted_waves, left_by_slow_waves, uneven_power
 from probation.noise.whitening import Whitened
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from probation._arrays import FloatArray
-    from probation.noise.evidence import NoiseEvidence
     from probation.noise.record_residual import RecordResidual
 
 PLACES = 33
-"""Frequencies that are tried within one spacing around a line's."""
-
-
-def without_lines(records: Sequence[RecordResidual]) -> Whitened:
-    """The records without certain lines, whitened by the noise that is left.
-
-    Lines are taken out one by one in every record, as long as that does not raise the noise: a transient has a peak in
-    its periodogram, too, and a wave in its place disturbs the rest of the record.
-
-    Parameters
-    ----------
-    records : sequence of RecordResidual
-    """
-    known: dict[RecordResidual, NoiseEvidence] = {}
-    whitened = Whitened.of(records, estimate_noise(records, known=known))
-    for _ in range(DETECTION.most_lines):
-        lines = {line.record: line for line in find_lines(whitened) if line.p_value < DETECTION.line_is_no_noise}
-        touched = [index for index, record in enumerate(whitened.records) if record.name in lines]
-        if not touched:
-            break
-        cleaned = list(whitened.records)
-        for index in touched:
-            cleaned[index] = _without(whitened, index, lines[cleaned[index].name])
-        after = Whitened.of(cleaned, estimate_noise(cleaned, known=known))
-        noises = [(whitened.noises[index], after.noises[index]) for index in touched]
-        if any(new.deviation.mean() > old.deviation.mean() for old, new in noises):
-            break
-        whitened = after
-    return whitened
+"""Frequencies that are tried within one spacing around a wave's."""
 
 
 def without_one_line_each(whitened: Whitened, level: float) -> Whitened:
@@ -67,20 +31,49 @@ def without_one_line_each(whitened: Whitened, level: float) -> Whitened:
     """
     lines = {line.record: line for line in find_lines(whitened) if line.p_value < level}
     records = [
-        _without(whitened, index, lines[record.name], np.exp(record.true_strain)) if record.name in lines else record
+        without_wave(whitened, index, record.time, lines[record.name].frequency_Hz, growth=np.exp(record.true_strain))
+        if record.name in lines
+        else record
         for index, record in enumerate(whitened.records)
     ]
     return Whitened.of(records, whitened.noises) if lines else whitened
 
 
-def _without(whitened: Whitened, index: int, line: Line, growth: FloatArray | None = None) -> RecordResidual:
-    """A record without a line, the frequency of which is refined; slow waves and the record's own refit are left.
+def without_wave(
+    whitened: Whitened,
+    index: int,
+    place: FloatArray,
+    frequency: float,
+    *,
+    harmonics: int = 1,
+    most: int = 1,
+    growth: FloatArray | None = None,
+) -> RecordResidual:
+    """A record without a wave, the frequency of which is refined; slow waves and the record's own refit are left.
 
-    With a `growth` (n,) the line may be partly in proportion to it.
+    Parameters
+    ----------
+    whitened : Whitened
+    index : int
+        The record's.
+    place : ndarray, shape (n,)
+        Time or strain.
+    frequency : float
+        Over that.
+    harmonics : int
+        So many it has, itself among them.
+    most : int
+        So many of them are taken out at most, the strongest.
+    growth : ndarray, shape (n,), optional
+        The wave may be partly in proportion to it.
     """
     record = whitened.records[index]
     left, white = left_by_slow_waves(whitened, index, DETECTION.slowest_line)
-    near = line.frequency_Hz + np.linspace(-0.5, 0.5, PLACES) / float(record.time[-1] - record.time[0])
-    frequency = near[int(np.argmax(uneven_power(record.time, left, near)))]
-    waves, size = fitted_sine(whitened, index, left, white, frequency, growth)
+    near = frequency + np.linspace(-0.5, 0.5, PLACES) / float(np.ptp(place))
+    orders = np.arange(1, harmonics + 1)
+    power = np.array([uneven_power(place, left, order * near) for order in orders])
+    best = int(np.argmax(power.sum(axis=0)))
+    strongest = orders[np.argsort(-power[:, best])[:most]]
+    phases = 2.0 * np.pi * near[best] * np.outer(place, strongest)
+    waves, size = fitted_waves(whitened, index, left, white, phases, growth)
     return replace(record, residual=record.residual - waves @ size)

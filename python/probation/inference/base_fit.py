@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from probation.detection.without_lines import without_lines
+from probation.detection.noise_without_waves import without_waves
 from probation.effects.record_view import views_of
 from probation.inference.candidate import Extended, WhitenedColumns, for_a_search_only, for_a_test, screened
 from probation.inference.deviations import deviation_columns
@@ -60,8 +60,8 @@ NoiseEstimator: TypeAlias = "Callable[[Sequence[RecordResidual]], tuple[NoiseMod
 
 
 def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
-    """Every record's noise, its drift included; lines in the residuals are none of it."""
-    whitened = without_lines(residuals)
+    """Every record's noise, its drift included; waves in the residuals are none of it."""
+    whitened = without_waves(residuals)
     noises, drift = whitened.noises, estimate_drift(whitened)
     of_effects = like_an_effect(drift)
     return tuple(

@@ -1,4 +1,4 @@
-"""Something shakes at one frequency."""
+"""Something shakes at one frequency, or once a turn of a screw."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.detection.strain_periodic import likely_periods
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
 if TYPE_CHECKING:
@@ -46,6 +47,39 @@ _PERIODS = EffectParameter(
     scale=float("inf"),
     log=True,
     reason="some in the record at least: what has fewer is no wave, but a course that any slow effect may take",
+)
+_SECOND = 0.1
+"""Second harmonic of a screw's wave, over the first, from which searches begin."""
+_SCREW = (
+    EffectParameter(
+        name="period_elongation",
+        unit="",
+        lower=1e-4,
+        upper=1.0,
+        centre=0.05,
+        scale=float("inf"),
+        log=True,
+        reason="a screw turns once in 2 to 20 mm, a gauge length is 10 to 100 mm; gears and belts have more: any",
+    ),
+    _PHASE,
+    EffectParameter(
+        name="second_of_wave",
+        unit="",
+        lower=0.0,
+        upper=1.0,
+        centre=_SECOND,
+        scale=0.3,
+        reason="a screw's wave is no sine, and a joint out of line errs twice a turn",
+    ),
+    EffectParameter(
+        name="second_phase_rad",
+        unit="rad",
+        lower=-2.0 * np.pi,
+        upper=2.0 * np.pi,
+        scale=float("inf"),
+        period=2.0 * np.pi,
+        reason="any",
+    ),
 )
 _LASTING = EffectParameter(
     name="lasting_periods",
@@ -91,6 +125,33 @@ def _ringing(view: RecordView, values: Values, stress: FloatArray) -> FloatArray
         begun = (view.time >= view.time[corner]) * change
         ring += begun * np.exp(-periods / lasting) * np.sin(2.0 * np.pi * periods + phase)
     return stress + size * ring * view.stretch
+
+
+def _turning(view: RecordView, values: Values) -> FloatArray:
+    """A wave and its second harmonic over the elongation, by which a crosshead has travelled; shape (n,)."""
+    size, period, phase, second, second_phase = values
+    turned = 2.0 * np.pi * np.expm1(view.recorded_strain) / period
+    return np.asarray(size * (np.sin(turned + phase) + second * np.sin(2.0 * turned + second_phase)))
+
+
+def _screw_on_force(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """A screw that runs heavily at one place of each turn: constant in force."""
+    return stress + _turning(view, values) * view.stretch
+
+
+def _screw_on_strain(view: RecordView, values: Values) -> FloatArray:
+    """A screw whose thread is uneven: the travel that is recorded is not quite the specimen's."""
+    wave = _turning(view, values)
+    return np.asarray(view.true_strain + wave - wave[0])
+
+
+def _turns(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """The likeliest periods of the residuals, or the prior's centre; sine and cosine, with a small second harmonic."""
+    periods = [_SCREW[0].centre]
+    if residuals is not None:
+        periods = likely_periods([np.expm1(view.sampled(view.recorded_strain)) for view in views], residuals)
+    inside = [float(np.clip(period, _SCREW[0].lower, _SCREW[0].upper)) for period in periods]
+    return [(period, phase, _SECOND, 0.0) for period in inside for phase in (0.0, 0.5 * np.pi)]
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -143,8 +204,14 @@ EFFECT = Effect(
         "A screw, a pump, the mains or a frame that rings adds a wave to the force, the stress or the strain.\n"
         "Amplitude: of the wave; its phase is counted from the start of each record."
     ),
-    source="André et al., Figure 2 (vibration in experiment 1); ASTM E1942; den Hartog 1934, Mechanical Vibrations",
-    shows_in="a wave in the residual; the records of one machine share its frequency, not its phase",
+    source=(
+        "André et al., Figure 2 (vibration in experiment 1); ASTM E1942; den Hartog 1934, Mechanical Vibrations; "
+        "ISO 230-2 (periodic error of a screw)"
+    ),
+    shows_in=(
+        "a wave in the residual; the records of one machine share its frequency, not its phase; of a screw one over "
+        "the elongation, whatever the speed"
+    ),
     kind="rig",
     coordinate="time",
     forms=(
@@ -182,6 +249,23 @@ EFFECT = Effect(
             starts=_rings,
             placements=("one",),
             sharp="line",
+            variant=True,
+        ),
+        Form(
+            "screw_force",
+            (EffectParameter("wave_MPa", "MPa", -20.0, 20.0, 0.2, "some tenths of a MPa"), *_SCREW),
+            recorded_stress=_screw_on_force,
+            starts=_turns,
+            sharp="strain_period",
+            variant=True,
+        ),
+        Form(
+            "screw_strain",
+            (EffectParameter("wave_strain", "", -0.02, 0.02, 2e-4, "experiment 1 vibrates by 1.5e-4"), *_SCREW),
+            driving_strain=_screw_on_strain,
+            starts=_turns,
+            sharp="strain_period",
+            converts=False,
             variant=True,
         ),
     ),

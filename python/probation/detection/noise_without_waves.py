@@ -1,0 +1,86 @@
+"""A wave in a residual is no noise: it is taken out before the noise is estimated.
+
+An ARMA(1,1) has no line in its spectrum. Where a residual has one, the process takes it for noise with a long memory:
+a ripple of 0.5 MPa in noise of 0.17 MPa was noise of 0.85 MPa, in which nothing shows. So it does with what is periodic
+in the strain: the pitch of a screw, 0.4 MPa in noise of 0.045 MPa, was noise of 0.4 to 1.0 MPa.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from probation.detection.lines_and_steps import find_lines
+from probation.detection.strain_periodic import along, find_strain_periodic
+from probation.detection.without_lines import without_wave
+from probation.noise.estimate import estimate_noise
+from probation.noise.whitening import Whitened
+from probation.settings.detection import DETECTION
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from probation.noise.evidence import NoiseEvidence
+    from probation.noise.record_residual import RecordResidual
+
+    Taken: TypeAlias = "dict[int, RecordResidual]"
+    """Records from which a wave was taken, by index."""
+
+
+def without_waves(records: Sequence[RecordResidual]) -> Whitened:
+    """The records without certain waves, whitened by the noise that is left.
+
+    Waves are taken out one by one in every record, as long as that does not raise the noise: a transient has a peak in
+    its periodogram, too, and a wave in its place disturbs the rest of the record. Lines in time come first.
+
+    Parameters
+    ----------
+    records : sequence of RecordResidual
+    """
+    known: dict[RecordResidual, NoiseEvidence] = {}
+    whitened = Whitened.of(records, estimate_noise(records, known=known))
+    for strongest in (_lines, _strain_periodic):
+        whitened = _one_by_one(whitened, strongest, known)
+    return whitened
+
+
+def _one_by_one(
+    whitened: Whitened, strongest: Callable[[Whitened], Taken], known: dict[RecordResidual, NoiseEvidence]
+) -> Whitened:
+    for _ in range(DETECTION.most_lines):
+        taken = strongest(whitened)
+        if not taken:
+            break
+        cleaned = [taken.get(index, record) for index, record in enumerate(whitened.records)]
+        after = Whitened.of(cleaned, estimate_noise(cleaned, known=known))
+        noises = [(whitened.noises[index], after.noises[index]) for index in taken]
+        if any(new.deviation.mean() > old.deviation.mean() for old, new in noises):
+            break
+        whitened = after
+    return whitened
+
+
+def _lines(whitened: Whitened) -> Taken:
+    """Without the strongest line of each record."""
+    lines = {line.record: line for line in find_lines(whitened) if line.p_value < DETECTION.line_is_no_noise}
+    return {
+        index: without_wave(whitened, index, record.time, lines[record.name].frequency_Hz)
+        for index, record in enumerate(whitened.records)
+        if record.name in lines
+    }
+
+
+def _strain_periodic(whitened: Whitened) -> Taken:
+    """Without what is most certainly periodic in the strain, in its record or in all; it may grow with the stretch."""
+    found = [each for each in find_strain_periodic(whitened) if each.p_value < DETECTION.line_is_no_noise]
+    taken: Taken = {}
+    for wave in found[:1]:
+        for index, record in enumerate(whitened.records):
+            most = len(record) // DETECTION.samples_per_harmonic
+            if most and wave.record in (None, record.name):
+                place, growth = along(wave.coordinate, record.true_strain), np.exp(record.true_strain)
+                taken[index] = without_wave(
+                    whitened, index, place, 1.0 / wave.period, harmonics=wave.harmonics, most=most, growth=growth
+                )
+    return taken
