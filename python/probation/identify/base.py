@@ -37,7 +37,8 @@ def base_fit(campaign: Campaign, fit: Fit) -> BaseFit:
     """
     samples = _excitations(campaign, fit)
     steps = enough_substeps(campaign, fit, samples)
-    views = views_of(campaign, excitations=samples, scheme=scheme_of(fit.scheme, fit.start), substeps=steps)
+    views = views_of(campaign, excitations=samples, scheme=scheme_of(fit.scheme, fit.start))
+    views = tuple(view.with_substeps(steps[view.id]) for view in views)
     held = [name for name in fit.law.parameter_names if name not in fit.names]
     law = DnlrLaw(fit.law, held=held, times=time_range(campaign.identify, fit.law))
     base = fit_views(law, views, campaign.specimens)
