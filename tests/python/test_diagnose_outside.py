@@ -57,7 +57,7 @@ def test_a_search_over_all_effects_finds_what_explains_the_records_to_their_nois
 def ended(seconds, monkeypatch):
     """A search for a truth that shows only jointly with another effect; a second passes with every look at the clock.
 
-    Some 300 s go with single effects, 600 s with all.
+    Some 510 s go with single effects, 620 s with all.
     """
     monkeypatch.setattr("probation.diagnosis.budget.monotonic", count().__next__)
     campaign = replace(Campaign.load(OUTSIDE / "relaxation-full-search-loses-it"), specimens=Specimens("none"))
