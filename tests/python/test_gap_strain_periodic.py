@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
+from probation.detection.noise_without_waves import without_waves
 from probation.detection.strain_periodic import find_strain_periodic, likely_periods, strain_periodic_waves
 from probation.noise.arma import Arma
 from probation.noise.record_residual import RecordResidual
@@ -105,6 +106,21 @@ def test_noise_makes_few_ripples():
     """40 campaigns of noise: the smallest p-value, an upper bound for each, is below 5 % in six or fewer (p = 0.01)."""
     least = [find_strain_periodic(whitened(noise(seed + 10))[0])[0].p_value for seed in range(40)]
     assert np.sum(np.array(least) < 0.05) <= 6
+
+
+def test_a_specimen_that_is_not_strained_keeps_its_noise_beside_two_that_share_a_wave():
+    """What is taken out where it shows: nothing of a record that is held, which has no periods in the strain."""
+    seen, strains = whitened(noise(4, 3))
+    records = list(seen.records)
+    for index in (0, 1):
+        wave = 5.0 * problem.SIGMA * np.sin(2.0 * np.pi * np.expm1(strains[index]) / 0.1)
+        records[index] = replace(records[index], residual=records[index].residual + wave)
+    held = np.full(COUNT, strains[2][0])
+    records[2] = replace(records[2], true_strain=held, strain_rate=np.zeros(COUNT), tangent=np.ones((COUNT, 1)))
+    left = without_waves(records)
+    np.testing.assert_array_equal(left.records[2].residual, records[2].residual)
+    for index in range(3):
+        assert left.noises[index].deviation.mean() == pytest.approx(problem.SIGMA, rel=0.15)
 
 
 def test_records_without_strain_have_none():

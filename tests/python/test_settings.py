@@ -162,6 +162,7 @@ IN_FUNCTIONS = {
     "identify/profile.py": {0.1, 0.07},  # steps of the walk
     "identify/result.py": {0.95, 1000},  # defaults that a caller sees
     "identify/scattered.py": {0.975},
+    "identify/substeps.py": {0.2, 0.25},  # powers of Lagrange's optimum
     "identify/search.py": {1000.0, 4000},
     "identify/variable_projection.py": {1e-3},
     "calibration/calibrate.py": {1e-3, 0.6, 0.2},  # starts

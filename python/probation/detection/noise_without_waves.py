@@ -48,7 +48,7 @@ def without_waves(records: Sequence[RecordResidual]) -> Whitened:
 def _one_by_one(
     whitened: Whitened, strongest: Callable[[Whitened], Taken], known: dict[RecordResidual, NoiseEvidence]
 ) -> Whitened:
-    for _ in range(DETECTION.most_lines):
+    for _ in range(DETECTION.most_waves):
         taken = strongest(whitened)
         if not taken:
             break
@@ -63,7 +63,7 @@ def _one_by_one(
 
 def _lines(whitened: Whitened) -> Taken:
     """Without the strongest line of each record."""
-    lines = {line.record: line for line in find_lines(whitened) if line.p_value < DETECTION.line_is_no_noise}
+    lines = {line.record: line for line in find_lines(whitened) if line.p_value < DETECTION.wave_is_no_noise}
     return {
         index: without_wave(whitened, index, record.time, lines[record.name].frequency_Hz)
         for index, record in enumerate(whitened.records)
@@ -72,15 +72,28 @@ def _lines(whitened: Whitened) -> Taken:
 
 
 def _strain_periodic(whitened: Whitened) -> Taken:
-    """Without what is most certainly periodic in the strain, in its record or in all; it may grow with the stretch."""
-    found = [each for each in find_strain_periodic(whitened) if each.p_value < DETECTION.line_is_no_noise]
+    """Without what is most certainly periodic in the strain, in a record by itself or in all; it may grow with stretch.
+
+    Where a record shows it at all: from some periods on, and as many harmonics as its samples resolve.
+    """
+    found = [each for each in find_strain_periodic(whitened) if each.p_value < DETECTION.wave_is_no_noise]
     taken: Taken = {}
-    for wave in found[:1]:
-        for index, record in enumerate(whitened.records):
-            most = len(record) // DETECTION.samples_per_harmonic
-            if most and wave.record in (None, record.name):
-                place, growth = along(wave.coordinate, record.true_strain), np.exp(record.true_strain)
+    for index, record in enumerate(whitened.records):
+        most = len(record) // DETECTION.samples_per_harmonic
+        for wave in found:
+            place = along(wave.coordinate, record.true_strain)
+            periods = float(np.ptp(place)) / wave.period
+            shown = DETECTION.slowest_line <= 2.0 * periods <= 2.0 * len(record) / DETECTION.shortest_strain_period
+            if most and shown and wave.record in (None, record.name):
+                resolved = int(len(record) / (DETECTION.shortest_harmonic * periods))
                 taken[index] = without_wave(
-                    whitened, index, place, 1.0 / wave.period, harmonics=wave.harmonics, most=most, growth=growth
+                    whitened,
+                    index,
+                    place,
+                    1.0 / wave.period,
+                    harmonics=min(wave.harmonics, resolved),
+                    most=most,
+                    growth=np.exp(record.true_strain),
                 )
+                break
     return taken

@@ -60,11 +60,11 @@ class StrainPeriodic:
     period : float
         Of the coordinate [-].
     p_value : float
-        Over all periods of all records.
+        Over all periods of all records, in both coordinates.
     power : float
         In units of the noise's.
     tried : float
-        Periods that could be discriminated among those that were tried.
+        Periods that could be discriminated among those that were tried, in both coordinates.
     """
 
     record: str | None
@@ -79,7 +79,7 @@ class StrainPeriodic:
     def log_share(self) -> float:
         """Log of the part of the tried periods within which this one is known: what its choice costs an explanation.
 
-        A wave of energy L, 2 * power, over an extent E of the strain is known to 0.55 / (E sqrt(L)) in frequency
+        A wave of energy L, 2 * power, over an extent E of its coordinate is known to 0.55 / (E sqrt(L)) in frequency
         (Rife and Boorstyn 1974); Laplace's integral over a flat prior of `tried` / E is that times sqrt(2 pi).
         """
         return float(min(np.log(1.38 / (self.tried * np.sqrt(2.0 * self.power))), 0.0))
@@ -213,7 +213,7 @@ def likely_periods(strains: Sequence[FloatArray], values: Sequence[FloatArray], 
 
 @dataclass(frozen=True, eq=False)
 class _Spectrum:
-    """Power of one record over its strain, in units of the noise's, at multiples of a fine spacing.
+    """Power of one record over a coordinate, in units of the noise's, at multiples of a fine spacing.
 
     Attributes
     ----------
@@ -221,7 +221,7 @@ class _Spectrum:
     count : int
         Samples.
     extent, spacing : float
-        Of the strain [-], and of the frequencies [1/strain].
+        Of the coordinate [-], and of the frequencies, one over that.
     power : ndarray, shape (k,)
     """
 
@@ -299,4 +299,4 @@ def _strongest(
     best = int(np.argmin(chances))
     p_value = smallest_of_many(float(chances[best]), tried.size * families)
     at = tried[best]
-    return 1.0 / float(frequency[at]), p_value, float(power[at]), tried.size / step
+    return 1.0 / float(frequency[at]), p_value, float(power[at]), len(COORDINATES) * tried.size / step

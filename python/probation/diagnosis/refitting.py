@@ -137,7 +137,8 @@ class Refitting:
     def refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
-        With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
+        With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap. With a
+        strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
         they do not explain. So specimens that are alike come first there. Where one of them is then far from what is
         usual, that is the end; else a refit from the start is taken in which none deviates unusually, or one from where
         specimens that are alike end, unless its next steps leave more. A search that explains less than no effect does
@@ -162,7 +163,7 @@ class Refitting:
             first = start
             with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
                 misfit = float(np.sum(problem.residual_and_jacobian(first)[0] ** 2))
-        apart, most = min(steps, SEARCH.steps_apart), SEARCH.hopeless_specimen
+        apart, most = min(steps, SEARCH.steps_apart), SEARCH.farthest_specimen
         weak = misfit <= len(self.base.whitened) + SEARCH.strong_gap
         if weak:
             fit = refit(problem, start, most_steps=steps)
@@ -171,7 +172,7 @@ class Refitting:
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
-        hopeless = self._furthest(there) > most
+        hopeless = not weak and self._furthest(there) > most
         if not weak and not hopeless:
             fit = refit(problem, start, most_steps=apart)
             if self._furthest(fit) <= most:

@@ -15,7 +15,7 @@ from probation.settings.certificate import CERTIFICATE
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -43,21 +43,18 @@ def enough_substeps(campaign: Campaign, fit: Fit, excitations: Mapping[str, Exci
     def error_over_noise(record: Record, steps: int) -> float:
         coarse, fine = (predicted(fit, excitations[record.id], count) for count in (steps, 2 * steps))
         least = NOISE.least_noise * float(np.max(np.abs(record.true_stress)))
-        noise = max(noise_level(record.time, record.true_stress - fine), least)
+        noise = max(noise_level(record.time, record.true_stress - fine), least, 1e-12)
         return float(4.0 / 3.0 * np.linalg.norm(coarse - fine) / noise)  # halving the step leaves a quarter
 
     tolerated, first, fitted = CERTIFICATE.tolerated_scheme_error, fit.substeps, campaign.identify
     most = most_substeps(len(record.time) for record in fitted)
-    lengths = np.array([len(record.time) for record in fitted])
-    steps = np.full(len(fitted), first)
-    error = np.array([error_over_noise(record, first) for record in fitted])
-    while np.linalg.norm(error) > tolerated and np.any(steps < most):
-        wanted = np.clip(fewest_instants(error * steps**2, lengths, tolerated), steps, most).astype(int)
-        if np.array_equal(wanted, steps):
-            wanted[np.argmax(np.where(steps < most, error, -1.0))] += 1
-        changed = np.flatnonzero(wanted != steps)
-        steps = wanted
-        error[changed] = [error_over_noise(fitted[at], int(steps[at])) for at in changed]
+    steps = shared_steps(
+        [partial(error_over_noise, record) for record in fitted],
+        [len(record.time) for record in fitted],
+        tolerated,
+        first,
+        most,
+    )
     others = [record for record in campaign.records if record not in fitted]
     return {
         **{record.id: int(count) for record, count in zip(fitted, steps, strict=True)},
@@ -65,10 +62,41 @@ def enough_substeps(campaign: Campaign, fit: Fit, excitations: Mapping[str, Exci
     }
 
 
-def fewest_instants(size: FloatArray, lengths: NDArray[np.intp], tolerated: float) -> FloatArray:
-    """Steps s of each record that leave the errors c / s^2 of all together no more than `tolerated`, whole numbers.
+def shared_steps(
+    errors: Sequence[Callable[[int], float]], lengths: Sequence[int], tolerated: float, first: int, most: int
+) -> list[int]:
+    """Steps of each record, from `first` to `most`, that leave an error of no more than `tolerated` together.
 
-    With fewest instants, sum n s: by Lagrange's multiplier s is proportional to (c^2 / n)^(1/5).
+    Parameters
+    ----------
+    errors : sequence of callable
+        Of each record, with so many steps, in the unit of `tolerated`; they fall with the square of the steps.
+    lengths : sequence of int
+        Samples of each record.
+    """
+    many, counts = np.full(len(errors), first), np.array(lengths)
+    error = np.array([each(first) for each in errors])
+    while np.any(free := many < most):
+        # Those that have as many as can be leave the others what they do not use, or exceed it by themselves.
+        left = tolerated**2 - float(np.sum(error[~free] ** 2))
+        budget = np.sqrt(left) if left > 0.0 else tolerated
+        if np.linalg.norm(error[free]) <= budget:
+            break
+        wanted = many.copy()
+        few = few_instants(np.minimum(error, tolerated * most**2)[free] * many[free] ** 2, counts[free], budget)
+        wanted[free] = np.clip(few, many[free], most).astype(int)
+        if np.array_equal(wanted, many):
+            wanted[np.argmax(np.where(free, error, -1.0))] += 1
+        for at in np.flatnonzero(wanted != many):
+            error[at] = errors[int(at)](int(wanted[at]))
+        many = wanted
+    return [int(each) for each in many]
+
+
+def few_instants(size: FloatArray, lengths: NDArray[np.intp], tolerated: float) -> FloatArray:
+    """Steps s of each record that leave errors c / s^2 of no more than `tolerated` together, whole numbers.
+
+    Instants, sum n s, are fewest before they are rounded up: by Lagrange's multiplier s goes with (c^2 / n)^(1/5).
 
     Parameters
     ----------

@@ -101,18 +101,20 @@ class DetectionSettings:
     line_neighbours: int = chosen(
         60, "frequencies", "Frequencies whose median power a line is measured against, if that is above the noise's."
     )
-    line_is_no_noise: float = chosen(
+    wave_is_no_noise: float = chosen(
         1e-5,
         "p-value",
         "Level below which a line in time, or what is periodic in the strain, is taken out of a residual before its "
         "noise is estimated.",
     )
-    most_lines: int = chosen(4, "lines", "So many lines of a record are taken out at most, and strain periods.")
+    most_waves: int = chosen(
+        4, "waves", "So many lines of a record, and so many strain periods, are taken out at most."
+    )
     samples_per_harmonic: int = chosen(
         80,
         "samples",
         "Samples of a record for each harmonic of a strain period that is taken out: its four columns take away a "
-        "twentieth of the noise at most.",
+        "twentieth of the noise's variance, each time.",
     )
     sharp_share: float = chosen(
         0.075, "-", "Part of the level that is spent on each: lines, steps, strain periods, and bumps that recur."

@@ -47,12 +47,12 @@ class SearchSettings:
         "Gauss-Newton steps of specimens that differ, from a start and from the optimum of specimens that are alike, "
         "after which it shows whether their deviations hold a strong gap.",
     )
-    hopeless_specimen: float = chosen(
+    farthest_specimen: float = chosen(
         12.0,
         "-",
-        "Deviation of a specimen, over what is usual, at the optimum of specimens that are alike, or after these steps "
-        "from the start, beyond which none of a strong gap is looked for in which it is usual: right effects came to "
-        "11 at most, two of three wrong ones to 16 and more.",
+        "Deviation of a specimen, over what is usual, beyond which no refit to a strong gap is sought in which it is "
+        "usual. It is taken at the optimum of specimens that are alike, and `steps_apart` steps from the start. Right "
+        "effects reach 11, two of three wrong ones 16 and more.",
     )
     line_or_step_level: float = chosen(
         0.01,

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation.detection.strain_periodic import likely_periods
+from probation.effects.catalogue.strain_offset import LEAST_STRETCH
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
 if TYPE_CHECKING:
@@ -55,13 +57,13 @@ _SCREW = (
         name="period_elongation",
         unit="",
         lower=1e-4,
-        upper=1.0,
+        upper=2.0,
         centre=0.05,
         scale=float("inf"),
         log=True,
-        reason="a screw turns once in 2 to 20 mm, a gauge length is 10 to 100 mm; gears and belts have more: any",
+        reason="a screw turns once in 2 to 20 mm, a gauge length is 10 to 100 mm; gears and belts turn faster: any",
     ),
-    _PHASE,
+    replace(_PHASE, reason="any; with a signed amplitude it repeats itself after half a turn, the second one with it"),
     EffectParameter(
         name="second_of_wave",
         unit="",
@@ -140,9 +142,9 @@ def _screw_on_force(view: RecordView, values: Values, stress: FloatArray) -> Flo
 
 
 def _screw_on_strain(view: RecordView, values: Values) -> FloatArray:
-    """A screw whose thread is uneven: the travel that is recorded is not quite the specimen's."""
+    """A screw whose thread is uneven: the travel that is recorded is not quite the specimen's; elongations differ."""
     wave = _turning(view, values)
-    return np.asarray(view.true_strain + wave - wave[0])
+    return np.asarray(np.log(np.maximum(np.exp(view.true_strain) + wave - wave[0], LEAST_STRETCH)))
 
 
 def _turns(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -202,15 +204,16 @@ EFFECT = Effect(
     title="periodic disturbance",
     physics=(
         "A screw, a pump, the mains or a frame that rings adds a wave to the force, the stress or the strain.\n"
-        "Amplitude: of the wave; its phase is counted from the start of each record."
+        "Amplitude: of the wave; its phase is counted from the start of each record, that of a screw from an "
+        "elongation of zero."
     ),
     source=(
         "André et al., Figure 2 (vibration in experiment 1); ASTM E1942; den Hartog 1934, Mechanical Vibrations; "
         "ISO 230-2 (periodic error of a screw)"
     ),
     shows_in=(
-        "a wave in the residual; the records of one machine share its frequency, not its phase; of a screw one over "
-        "the elongation, whatever the speed"
+        "a wave in the residual; the records of one machine share its frequency, not its phase; that of a screw is a "
+        "wave over the elongation, at any speed"
     ),
     kind="rig",
     coordinate="time",
@@ -261,11 +264,15 @@ EFFECT = Effect(
         ),
         Form(
             "screw_strain",
-            (EffectParameter("wave_strain", "", -0.02, 0.02, 2e-4, "experiment 1 vibrates by 1.5e-4"), *_SCREW),
+            (
+                EffectParameter(
+                    "wave_elongation", "", -0.02, 0.02, 2e-4, "some hundredths of a millimetre of a gauge length"
+                ),
+                *_SCREW,
+            ),
             driving_strain=_screw_on_strain,
             starts=_turns,
             sharp="strain_period",
-            converts=False,
             variant=True,
         ),
     ),
