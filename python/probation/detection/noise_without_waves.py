@@ -32,7 +32,8 @@ def without_waves(records: Sequence[RecordResidual]) -> Whitened:
     """The records without certain waves, whitened by the noise that is left.
 
     Waves are taken out one by one in every record, as long as that does not raise the noise: a transient has a peak in
-    its periodogram, too, and a wave in its place disturbs the rest of the record. Lines in time come first.
+    its periodogram, too, and a wave in its place disturbs the rest of the record. Lines in time come first. What is
+    periodic in the strain has to lower the noise by much: a part of a gap that is not periodic may look so.
 
     Parameters
     ----------
@@ -40,14 +41,18 @@ def without_waves(records: Sequence[RecordResidual]) -> Whitened:
     """
     known: dict[RecordResidual, NoiseEvidence] = {}
     whitened = Whitened.of(records, estimate_noise(records, known=known))
-    for strongest in (_lines, _strain_periodic):
-        whitened = _one_by_one(whitened, strongest, known)
+    for strongest, most_left in ((_lines, 1.0), (_strain_periodic, DETECTION.noise_without_strain_period)):
+        whitened = _one_by_one(whitened, strongest, most_left, known)
     return whitened
 
 
 def _one_by_one(
-    whitened: Whitened, strongest: Callable[[Whitened], Taken], known: dict[RecordResidual, NoiseEvidence]
+    whitened: Whitened,
+    strongest: Callable[[Whitened], Taken],
+    most_left: float,
+    known: dict[RecordResidual, NoiseEvidence],
 ) -> Whitened:
+    """As long as no more than a part of the noise is left of any record from which a wave was taken."""
     for _ in range(DETECTION.most_waves):
         taken = strongest(whitened)
         if not taken:
@@ -55,7 +60,7 @@ def _one_by_one(
         cleaned = [taken.get(index, record) for index, record in enumerate(whitened.records)]
         after = Whitened.of(cleaned, estimate_noise(cleaned, known=known))
         noises = [(whitened.noises[index], after.noises[index]) for index in taken]
-        if any(new.deviation.mean() > old.deviation.mean() for old, new in noises):
+        if any(new.deviation.mean() > most_left * old.deviation.mean() for old, new in noises):
             break
         whitened = after
     return whitened

@@ -110,6 +110,11 @@ class DetectionSettings:
     most_waves: int = chosen(
         4, "waves", "So many lines of a record, and so many strain periods, are taken out at most."
     )
+    noise_without_strain_period: float = chosen(
+        0.5,
+        "noise",
+        "Noise, over that before, that may be left where a strain period is taken out: a screw leaves a tenth.",
+    )
     samples_per_harmonic: int = chosen(
         80,
         "samples",
