@@ -44,15 +44,8 @@ class SearchSettings:
     steps_apart: int = chosen(
         2,
         "steps",
-        "Gauss-Newton steps of specimens that differ, from a start and from the optimum of specimens that are alike, "
-        "after which it shows whether their deviations hold a strong gap.",
-    )
-    farthest_specimen: float = chosen(
-        12.0,
-        "-",
-        "Deviation of a specimen, over what is usual, beyond which no refit to a strong gap is sought in which it is "
-        "usual. It is taken at the optimum of specimens that are alike, and `steps_apart` steps from the start. Right "
-        "effects reach 11, two of three wrong ones 16 and more.",
+        "Gauss-Newton steps of specimens that differ, from the optimum of specimens that are alike, after which it "
+        "shows whether their deviations hold a strong gap.",
     )
     line_or_step_level: float = chosen(
         0.01,
