@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from probation.detection.lines_and_steps import find_lines
-from probation.detection.strain_periodic import along, find_strain_periodic
+from probation.detection.strain_periodic import along, find_strain_periodic, shown
 from probation.detection.without_lines import without_wave
 from probation.noise.estimate import estimate_noise
 from probation.noise.whitening import Whitened
@@ -88,8 +88,7 @@ def _strain_periodic(whitened: Whitened) -> Taken:
         for wave in found:
             place = along(wave.coordinate, record.true_strain)
             periods = float(np.ptp(place)) / wave.period
-            shown = DETECTION.slowest_line <= 2.0 * periods <= 2.0 * len(record) / DETECTION.shortest_strain_period
-            if most and shown and wave.record in (None, record.name):
+            if most and wave.record in (None, record.name) and shown(np.array([periods]), len(record)).all():
                 resolved = int(len(record) / (DETECTION.shortest_harmonic * periods))
                 taken[index] = without_wave(
                     whitened,

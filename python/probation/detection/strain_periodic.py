@@ -23,6 +23,8 @@ from probation.settings.detection import DETECTION
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from numpy.typing import NDArray
+
     from probation._arrays import FloatArray
     from probation.noise.whitening import Whitened
 
@@ -43,6 +45,11 @@ COORDINATES: tuple[Coordinate, ...] = get_args(Coordinate)
 def along(coordinate: Coordinate, true_strain: FloatArray) -> FloatArray:
     """A coordinate of the samples, shape (n,) [-]."""
     return np.expm1(true_strain) if coordinate == "elongation" else true_strain
+
+
+def shown(periods: FloatArray, samples: int) -> NDArray[np.bool_]:
+    """Whether a record of so many samples shows so many periods, shape (n,): there are enough, each is long enough."""
+    return (2.0 * periods >= DETECTION.slowest_line) & (periods * DETECTION.shortest_strain_period <= samples)
 
 
 @dataclass(frozen=True)
@@ -254,7 +261,7 @@ class _Spectrum:
         """Power at each frequency and its harmonics, as far as they are resolved, and how many those are."""
         power, terms = np.zeros(len(frequency)), np.zeros(len(frequency))
         periods = frequency * self.extent
-        seen = (periods >= 0.5 * DETECTION.slowest_line) & (periods * DETECTION.shortest_strain_period <= self.count)
+        seen = shown(periods, self.count)
         for order in range(1, harmonics + 1):
             place = np.rint(order * frequency / self.spacing).astype(np.intp)
             resolved = seen & (place < len(self.power))

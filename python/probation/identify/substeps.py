@@ -57,7 +57,7 @@ def enough_substeps(campaign: Campaign, fit: Fit, excitations: Mapping[str, Exci
     )
     others = [record for record in campaign.records if record not in fitted]
     return {
-        **{record.id: int(count) for record, count in zip(fitted, steps, strict=True)},
+        **{record.id: count for record, count in zip(fitted, steps, strict=True)},
         **{each.id: fewest_substeps(partial(error_over_noise, each), tolerated, first, most) for each in others},
     }
 
@@ -96,7 +96,7 @@ def shared_steps(
 def few_instants(size: FloatArray, lengths: NDArray[np.intp], tolerated: float) -> FloatArray:
     """Steps s of each record that leave errors c / s^2 of no more than `tolerated` together, whole numbers.
 
-    Instants, sum n s, are fewest before they are rounded up: by Lagrange's multiplier s goes with (c^2 / n)^(1/5).
+    The number of instants, sum n s, is least before rounding up: by Lagrange's multiplier s goes with (c^2 / n)^(1/5).
 
     Parameters
     ----------
