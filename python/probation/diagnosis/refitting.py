@@ -16,7 +16,7 @@ from probation.inference.form_error import form_freedom
 from probation.inference.refit import Ended, Refit, reached, refit
 from probation.inference.remembering import RememberingModel
 from probation.inference.unsolvable import UNSOLVABLE
-from probation.noise.own_deviations import are_usual
+from probation.noise.own_deviations import furthest_specimen
 from probation.parallel import Copies
 from probation.settings.search import SEARCH
 
@@ -137,10 +137,11 @@ class Refitting:
     def refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
-        A refit in which no specimen deviates unusually is taken. With a strong gap, deviations of many standard
-        deviations cost little, and the misfit counts only along what they do not explain. So the search for specimens
-        that are alike comes next there, and ends where the next steps of specimens that differ would leave more, unless
-        there it explains less than no effect does: a fault in one record pulls the law of specimens that are alike.
+        A refit in which no specimen deviates unusually is taken; one that is far from it after a few steps is given up.
+        With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
+        they do not explain. So the search for specimens that are alike comes next there, and ends where one of them is far
+        from what is usual, or where the next steps of specimens that differ would leave more; unless there it explains
+        less than no effect does: a fault in one record pulls the law of specimens that are alike.
         """
         if not self.base.scatter.any:
             return refit(self.base.problem.with_model(model), start, most_steps=steps)
@@ -161,32 +162,39 @@ class Refitting:
             first = start
             with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
                 misfit = float(np.sum(problem.residual_and_jacobian(first)[0] ** 2))
-        fit = refit(problem, start, most_steps=steps)
         weak = misfit <= len(self.base.whitened) + SEARCH.strong_gap
-        if self._specimens_are_usual(fit) or (
-            weak and not specimens_hold_the_gap(model, noises, first, fit.parameters)
-        ):
-            return fit
+        if weak:
+            fit = refit(problem, start, most_steps=steps)
+            if self._furthest(fit) <= 1.0 or not specimens_hold_the_gap(model, noises, first, fit.parameters):
+                return fit
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
+        there = refit(problem, alike, most_steps=0)
+        explains = there.chi_square <= self.base.refit.chi_square
+        if not weak:
+            far = self._furthest(there) > SEARCH.farthest_specimen
+            if far and explains:
+                return there
+            fit = there if far else refit(problem, start, most_steps=steps)
+            if self._furthest(fit) <= 1.0:
+                return fit
         apart = min(steps, SEARCH.steps_apart)
-        begun = reached(problem, alike, most_steps=apart, differentiable=differentiable)
+        begun = reached(problem, there, most_steps=apart, differentiable=differentiable)
         if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
             if begun.steps < SEARCH.steps_apart:
                 return refit(problem, begun.parameters, most_steps=0)
             fit = refit(problem, begun.parameters, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, alike, fit.parameters):
                 return fit
-        there = refit(problem, alike, most_steps=0)
-        if there.chi_square <= self.base.refit.chi_square:
+        if explains:
             return there
         fit = refit(problem, begun.parameters, most_steps=steps)
         held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
         return there if held else fit
 
-    def _specimens_are_usual(self, fit: Refit) -> bool:
-        """Whether the specimens' deviations at a refit are what specimens may do."""
-        return are_usual(self.base.residual_of(fit), self.base.whitened.noises)
+    def _furthest(self, fit: Refit) -> float:
+        """How far the specimens' deviations at a refit are from what specimens may do: at most 1 where they may."""
+        return furthest_specimen(self.base.residual_of(fit), self.base.whitened.noises)
 
     def _without_effect(self, model: CampaignModel) -> FloatArray:
         """The base fit as parameters of a model whose causes are absent."""

@@ -39,9 +39,17 @@ def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
     return parts
 
 
-def are_usual(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> bool:
-    """Whether no specimen deviates by more than all but `NOISE.unusual_specimen` of them do; as `own_deviations`."""
-    return all(float(np.linalg.norm(size)) <= _usual(size) for _, size in _sizes(residuals, noises))
+def furthest_specimen(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> float:
+    """How far the furthest specimen deviates, in units of what all but `NOISE.unusual_specimen` of them stay below.
+
+    Parameters
+    ----------
+    residuals : sequence of ndarray, shape (n_r,) [MPa]
+        Without outliers.
+    noises : sequence of NoiseModel
+        With the specimens' scatter.
+    """
+    return max((float(np.linalg.norm(size)) / _usual(size) for _, size in _sizes(residuals, noises)), default=0.0)
 
 
 def _usual(size: FloatArray) -> float:

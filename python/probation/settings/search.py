@@ -47,6 +47,12 @@ class SearchSettings:
         "Gauss-Newton steps of specimens that differ, from the optimum of specimens that are alike, after which it "
         "shows whether their deviations hold a strong gap.",
     )
+    farthest_specimen: float = chosen(
+        12.0,
+        "of what is usual",
+        "Deviations of a specimen, over those that are usual, from which on a refit of a strong gap is given up after "
+        "these steps.",
+    )
     line_or_step_level: float = chosen(
         0.01,
         "-",
