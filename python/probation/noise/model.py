@@ -179,7 +179,7 @@ class NoiseModel:
             return rough
         return np.asarray(rough + rng.standard_normal((size, slow.shape[1])) @ slow.T)
 
-    @property
+    @cached_property
     def alike(self) -> NoiseModel:
         """The same without deviations of the specimen."""
         return replace(self, specimen=None)
