@@ -3,23 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 if TYPE_CHECKING:
     from numpy.random import Generator
-
-
-class Free(Protocol):
-    """A number that is drawn."""
-
-    @property
-    def middle(self) -> float:
-        """What is usual."""
-
-    def draw(self, random: Generator) -> float:
-        """Draw it."""
 
 
 @dataclass(frozen=True)
@@ -70,3 +59,7 @@ class OneOf:
     def draw(self, random: Generator) -> float:
         """Draw one."""
         return float(random.choice(self.values))
+
+
+Free: TypeAlias = Even | LogEven | OneOf
+"""A number that is drawn."""

@@ -12,8 +12,15 @@ from probation.errors import InputError
 from probation_studies.blind.laboratories.test_house.causes import CAUSES, FORMS, Form
 from probation_studies.blind.laboratories.test_house.handover import Made, Record, Truth, take_records
 from probation_studies.blind.laboratories.test_house.machine import base_stress
-from probation_studies.blind.laboratories.test_house.oracle import NONE, PAIR, SINGLE, Candidate, consult
-from probation_studies.blind.laboratories.test_house.planting import Planted, Series, draw_series, rivals, signal_of
+from probation_studies.blind.laboratories.test_house.oracle import NONE, PAIR, SINGLE, consult
+from probation_studies.blind.laboratories.test_house.planting import (
+    Placed,
+    Planted,
+    Series,
+    draw_series,
+    rivals,
+    signal_of,
+)
 from probation_studies.blind.laboratories.test_house.withheld import described
 
 if TYPE_CHECKING:
@@ -78,7 +85,7 @@ def _wanted(
     if stratum in ("none", "replicates"):
         return [], float(random.choice(_NULL_STRAIN_NOISES, p=_THEIR_PARTS)), stratum == "none"
     if stratum == "single":
-        return [_form_of(own, index)], None, bool(random.integers(2))
+        return [form_of(own, index)], None, bool(random.integers(2))
     may_pair = [form for form in FORMS.values() if not _IN_NO_PAIR & form.needs]
     while True:
         one, other = (may_pair[int(k)] for k in random.choice(len(may_pair), 2, replace=False))
@@ -86,8 +93,15 @@ def _wanted(
             return [one, other], None, None
 
 
-def _form_of(own: list[int], index: int) -> Form:
-    """In a drawn order, each form of each cause once in 48 indices."""
+def form_of(own: list[int], index: int) -> Form:
+    """The form of a single effect, in a drawn order: each of them once in 48 indices, each cause once in 24.
+
+    Parameters
+    ----------
+    own : list of int
+        Of which the order is drawn.
+    index : int
+    """
     block, place = divmod(index, len(FORMS))
     random = np.random.default_rng([*own, block, len(FORMS)])
     first = {cause: random.permutation([name for other, name in FORMS if other == cause]) for cause in CAUSES}
@@ -99,9 +113,8 @@ def _finish(key: int, series: Series, seeds: dict[str, object]) -> Made:
     plan, planted, name = series.plan, series.planted, f"{seeds['split']}-{seeds['index']:04d}"
     records = take_records(np.random.default_rng([key, _RECORDED]), plan, [each.effect for each in planted])
     base = {test.name: base_stress(test) for test in series.tests}
-    others = list(rivals(series.tests, base, series.metric, {each.effect.form.cause for each in planted}))
-    candidates = [_candidate(each.form.cause, each.share, each.signal) for each in others]
-    candidates += [_candidate(each.effect.form.cause, _place_share(each, series), each.signal) for each in planted]
+    candidates = [*rivals(series.tests, base, series.metric, {each.effect.form.cause for each in planted})]
+    candidates += [_told(each, series) for each in planted]
     acting = np.sum([each.signal for each in planted], axis=0) if planted else np.zeros(series.metric.count)
     noise = {each.test.name: _noise(each, series) for each in records}
     seen = {each.test.name: noise[each.test.name] + _deviating(each, series) for each in records}
@@ -113,7 +126,7 @@ def _finish(key: int, series: Series, seeds: dict[str, object]) -> Made:
         "name": name,
         **seeds,
         "target": max((each.size for each in planted), default=0.0),
-        "causes": [described(each, plan.coarse, before, others) for each in planted],
+        "causes": [described(each, plan.coarse, before) for each in planted],
         "mimics": "",
         "explanation": list(truth),
         "detectability": float(np.linalg.norm(acting)),
@@ -146,14 +159,10 @@ def _finish(key: int, series: Series, seeds: dict[str, object]) -> Made:
     return Made(name, plan, records, Truth(content))
 
 
-def _candidate(name: str, share: float, signal: FloatArray) -> Candidate:
-    return Candidate(name, share, signal / np.linalg.norm(signal))
-
-
-def _place_share(planted: Planted, series: Series) -> float:
-    """Of the told form, how often it is drawn in that place."""
+def _told(planted: Planted, series: Series) -> Placed:
+    """As a candidate of the oracle, which knows that it is of this form."""
     form, record = planted.effect.form, planted.effect.record
-    return form.shares([test.name for test in series.tests])[record]
+    return Placed(form, record, form.shares([test.name for test in series.tests])[record], planted.signal)
 
 
 def _noise(record: Record, series: Series) -> FloatArray:

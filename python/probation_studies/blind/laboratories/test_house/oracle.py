@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from scipy.special import ndtr
 
-from probation_studies.blind.laboratories.test_house.planting import LEAST_OF_PAIR, MOST
+from probation_studies.blind.laboratories.test_house.planting import LEAST_OF_PAIR, MOST, Placed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,24 +30,6 @@ RESOLVABLE = 0.95
 _SET = 0.95
 NONE, SINGLE, PAIR = 16 / 74, 48 / 74, 10 / 74
 """How often nothing, one cause or two are drawn."""
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A cause in a form and a place.
-
-    Attributes
-    ----------
-    name : str
-    share : float
-        Of its cause's prior.
-    signal : ndarray, shape (n_all,)
-        Of norm one.
-    """
-
-    name: str
-    share: float
-    signal: FloatArray
 
 
 @dataclass(frozen=True)
@@ -87,24 +68,24 @@ class Oracle:
 
 
 def consult(
-    random: Generator, candidates: Sequence[Candidate], acting: FloatArray, errors: FloatArray, truth: Names
+    random: Generator, candidates: Sequence[Placed], acting: FloatArray, errors: FloatArray, truth: Names
 ) -> Oracle:
     """Weigh all explanations with the records' errors, and in repeats with errors that are drawn anew.
 
     Parameters
     ----------
     random : Generator
-    candidates : sequence of Candidate
+    candidates : sequence of Placed
     acting, errors : ndarray, shape (n_all,)
         Of all that acts, and of the records.
     truth : tuple of str
     """
-    signals = np.stack([each.signal for each in candidates], axis=1)
+    signals = np.stack([each.signal / np.linalg.norm(each.signal) for each in candidates], axis=1)
     gram = signals.T @ signals
     values, vectors = np.linalg.eigh(gram)
     drawn = random.standard_normal((REPEATS, len(gram))) @ (vectors * np.sqrt(np.maximum(values, 0.0))).T
     scores = acting @ signals + np.vstack([errors @ signals, drawn])
-    names = np.array([each.name for each in candidates])
+    names = np.array([each.form.cause for each in candidates])
     share = np.array([each.share for each in candidates])
     first, second = np.triu_indices(len(names), 1)
     differ = names[first] != names[second]
@@ -158,10 +139,3 @@ def _two(x: FloatArray, y: FloatArray, cosine: FloatArray) -> FloatArray:
         ways.append(a * one + b * other - 0.5 * (a**2 + b**2) - cosine * a * b + _log_prior(a) + _log_prior(b))
     width = np.minimum(-0.5 * np.log(square), np.log(MOST))  # amplitudes of signals that are nearly one end, too
     return np.asarray(np.maximum(*ways) + np.log(2.0 * np.pi) + width)
-
-
-def discriminability(size: float, cosine: float) -> float:
-    """How often a signal is nearer to itself than to another of that cosine, whatever the amplitudes."""
-    half = 0.5 * np.arccos(min(abs(cosine), 1.0))
-    near, far = size * np.sin(half), size * np.cos(half)
-    return float(ndtr(near) * ndtr(far) + ndtr(-near) * ndtr(-far))

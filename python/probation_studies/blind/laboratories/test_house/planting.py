@@ -34,10 +34,18 @@ _REFITS, _FITTED, _STRIDE = 5, 1e-3, 0.4
 
 
 @dataclass(frozen=True, eq=False)
-class Rival:
-    """Another cause of usual amount and shape in a place; `record` is None for all.
+class Placed:
+    """A form in a place.
 
-    `share` is how often the form is drawn there, of its cause; `signal` is whitened, without what is fitted.
+    Attributes
+    ----------
+    form : Form
+    record : str or None
+        None for all.
+    share : float
+        How often it is drawn so, of its cause.
+    signal : ndarray, shape (n_all,)
+        Whitened, without what is fitted.
     """
 
     form: Form
@@ -198,7 +206,7 @@ def signal_of(tests: Sequence[Test], effect: Effect, base: Signals) -> dict[str,
     return found
 
 
-def rivals(tests: Sequence[Test], base: Signals, metric: Metric, but: set[str]) -> Iterator[Rival]:
+def rivals(tests: Sequence[Test], base: Signals, metric: Metric, but: set[str]) -> Iterator[Placed]:
     """Every cause but some, in both forms and all places, where it shows."""
     one_temperature = len({test.temperature for test in tests}) == 1
     for form in (*FORMS.values(), *RIVALS):
@@ -210,10 +218,10 @@ def rivals(tests: Sequence[Test], base: Signals, metric: Metric, but: set[str]) 
         for record, share in form.shares([test.name for test in tests]).items():
             left = metric.left(whole if record is None else {record: whole[record]})
             if np.all(np.isfinite(left)) and np.linalg.norm(left) > _UNSEEN:
-                yield Rival(form, record, 0.5 * share, left)
+                yield Placed(form, record, 0.5 * share, left)
 
 
-def _nearest(others: Iterator[Rival], shown: FloatArray) -> tuple[float, str]:
+def _nearest(others: Iterator[Placed], shown: FloatArray) -> tuple[float, str]:
     """Least sqrt(lambda) that a rival leaves, the first that is too little, and whose it is."""
     best = float(np.linalg.norm(shown)), "none"
     for rival in others:

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation_studies.blind.laboratories.test_house.oracle import discriminability
 from probation_studies.blind.laboratories.test_house.planting import signal_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from probation_studies.blind.laboratories.test_house.causes import Effect
     from probation_studies.blind.laboratories.test_house.metric import Signals
-    from probation_studies.blind.laboratories.test_house.planting import Planted, Rival
+    from probation_studies.blind.laboratories.test_house.planting import Planted
     from probation_studies.blind.laboratories.test_house.trial import Test
 
 _LOCALISED = 0.3
@@ -21,7 +21,7 @@ _LOCALISED = 0.3
 _MOST_OF_IT = 0.9
 
 
-def described(planted: Planted, tests: Sequence[Test], base: Signals, others: Sequence[Rival]) -> dict[str, object]:
+def described(planted: Planted, tests: Sequence[Test], base: Signals) -> dict[str, object]:
     """Of a cause at work.
 
     Parameters
@@ -31,31 +31,40 @@ def described(planted: Planted, tests: Sequence[Test], base: Signals, others: Se
         Before the law is refitted.
     base : Signals
         Stresses of their law.
-    others : sequence of Rival
     """
-    effect, unit = planted.effect, planted.signal / np.linalg.norm(planted.signal)
-    alike: dict[str, float] = {}
-    for each in others:
-        cosine = abs(float(unit @ each.signal)) / float(np.linalg.norm(each.signal))
-        alike[each.form.cause] = max(alike.get(each.form.cause, 0.0), min(cosine, 1.0))
+    effect, touched = planted.effect, [test for test in tests if planted.effect.touches(test)]
     windows, widest = _windows(tests, signal_of(tests, effect, base))
     return {
         "effect": effect.form.cause,
         "kind": effect.form.cause,
         "form": effect.form.name,
         "everywhere": effect.record is None,
-        "records": [test.name for test in tests if effect.touches(test)],
-        "amplitude": effect.amount,
+        "records": [test.name for test in touched],
+        "amplitude": _amplitude(effect, touched),
         "scale": effect.form.usual.amount,
         "shape": dict(effect.shape),
         "detectability": planted.size,
         "localised": 0.0 < widest < _LOCALISED,
         "windows": windows,
-        "alike": alike,
-        "discriminability": {name: discriminability(planted.size, cosine) for name, cosine in alike.items()},
         "left_by_best_other": planted.left,
         "nearest": planted.nearest,
     }
+
+
+def _amplitude(effect: Effect, touched: Sequence[Test]) -> float:
+    """Signed, in the benchmark's units: a gain's excess, what a drift comes to, by how many seconds the strain lags."""
+    signed, first = effect.amount * effect.shape.get("sign", 1.0), touched[0]
+    match effect.form.cause, effect.form.name:
+        case "force_gain", "section":
+            return float((1.0 - 0.5 * signed) ** -2 - 1.0)
+        case "force_drift", "warm_up":
+            duration = max(float(test.history.time[-1]) for test in touched)
+            return float(-signed * np.expm1(-duration / (effect.shape["part"] * first.longest)))
+        case "force_strain_lag", "late_strain":
+            return signed * first.shortest_interval
+        case "force_strain_lag", "filter":
+            return -signed * first.shortest_interval
+    return signed
 
 
 def _windows(tests: Sequence[Test], signals: Signals) -> tuple[list[dict[str, object]], float]:
