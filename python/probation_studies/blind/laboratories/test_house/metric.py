@@ -85,7 +85,9 @@ class Metric:
         shape = next(iter(signals.values())).shape[1:]
         return np.concatenate(
             [
-                solve_triangular(root, signals[name], lower=True) if name in signals else np.zeros((len(root), *shape))
+                solve_triangular(root, signals[name], lower=True, check_finite=False)
+                if name in signals
+                else np.zeros((len(root), *shape))
                 for name, root in self._roots.items()
             ]
         )
