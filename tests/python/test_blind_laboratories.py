@@ -7,6 +7,7 @@ import pytest
 from probation.cli import main
 from probation.errors import InputError
 from probation_studies.blind import laboratory
+from probation_studies.blind.laboratory_named import LABORATORIES, laboratory_named
 from probation_studies.blind.make import make_split
 
 
@@ -68,3 +69,10 @@ def test_another_laboratory_or_other_strata_are_another_split(quick, tmp_path):
 
 def test_the_own_laboratory_makes_the_stratum_it_is_asked_for():
     assert laboratory.make(1, 22, stratum="none").truth.stratum == "none"
+
+
+@pytest.mark.parametrize("name", LABORATORIES)
+@pytest.mark.parametrize(("split", "stratum"), [("train", "none"), ("develop", "quiet")])
+def test_every_laboratory_names_a_split_or_a_stratum_that_it_does_not_have(name, split, stratum):
+    with pytest.raises(InputError, match="'train'" if split == "train" else "'quiet'"):
+        laboratory_named(name).make(0, 0, split, stratum)

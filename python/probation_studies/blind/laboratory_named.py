@@ -17,6 +17,7 @@ LABORATORIES = {
     "university": "probation_studies.blind.laboratories.university",
     "industry": "probation_studies.blind.laboratories.industry",
     "institute": "probation_studies.blind.laboratories.institute",
+    "test_house": "probation_studies.blind.laboratories.test_house",
 }
 """The package of every laboratory; see `probation_studies.blind.laboratories`."""
 
