@@ -1,4 +1,4 @@
-"""The industrial test house: its own integration of the law, plausible campaigns, causes that do what they say."""
+"""The industrial laboratory: its own integration of the law, plausible campaigns, causes that do what they say."""
 
 import json
 
