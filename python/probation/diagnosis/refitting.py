@@ -137,11 +137,12 @@ class Refitting:
     def refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
-        A refit in which no specimen deviates unusually is taken; one that is far from it after a few steps is given up.
-        With a strong gap, deviations of many standard deviations cost little, and the misfit counts only along what
-        they do not explain. So the search for specimens that are alike comes next there, and ends where one of them is far
-        from what is usual, or where the next steps of specimens that differ would leave more; unless there it explains
-        less than no effect does: a fault in one record pulls the law of specimens that are alike.
+        With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap. With a
+        strong gap, deviations of many standard deviations cost little, and the misfit counts only along what they do
+        not explain. So specimens that are alike come first there. Where one of them is then far from what is usual,
+        that is the end; else a refit from the start is taken in which none deviates unusually, or one from where
+        specimens that are alike end, unless its next steps leave more. A search that explains less than no effect does
+        goes on: a fault in one record pulls the law of specimens that are alike.
         """
         if not self.base.scatter.any:
             return refit(self.base.problem.with_model(model), start, most_steps=steps)
@@ -170,23 +171,26 @@ class Refitting:
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
-        explains = there.chi_square <= self.base.refit.chi_square
         if not weak:
             far = self._furthest(there) > SEARCH.farthest_specimen
-            if far and explains:
+            if far and there.chi_square <= self.base.refit.chi_square:
                 return there
             fit = there if far else refit(problem, start, most_steps=steps)
             if self._furthest(fit) <= 1.0:
                 return fit
-        apart = min(steps, SEARCH.steps_apart)
-        begun = reached(problem, there, most_steps=apart, differentiable=differentiable)
+        return self._from_alike(there, alike, steps, differentiable=differentiable)
+
+    def _from_alike(self, there: Refit, alike: FloatArray, steps: int, *, differentiable: bool) -> Refit:
+        """From where specimens that are alike ended; there itself, where specimens that differ would hold the gap."""
+        problem, model, noises = there.problem, there.model, self.base.alike.noises
+        begun = reached(problem, there, most_steps=min(steps, SEARCH.steps_apart), differentiable=differentiable)
         if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
             if begun.steps < SEARCH.steps_apart:
                 return refit(problem, begun.parameters, most_steps=0)
             fit = refit(problem, begun.parameters, most_steps=steps)
             if not specimens_hold_the_gap(model, noises, alike, fit.parameters):
                 return fit
-        if explains:
+        if there.chi_square <= self.base.refit.chi_square:
             return there
         fit = refit(problem, begun.parameters, most_steps=steps)
         held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)

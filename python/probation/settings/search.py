@@ -50,8 +50,8 @@ class SearchSettings:
     farthest_specimen: float = chosen(
         12.0,
         "of what is usual",
-        "Deviations of a specimen, over those that are usual, from which on a refit of a strong gap is given up after "
-        "these steps.",
+        "Deviations of a specimen, over those that are usual, from which on a refit of a strong gap stays where "
+        "specimens that are alike end.",
     )
     line_or_step_level: float = chosen(
         0.01,
