@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
+from probation.diagnosis.causes import Causes
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import (
     Weighed,
@@ -20,6 +21,7 @@ from probation.diagnosis.probabilities import (
     with_unseen,
     with_untried,
 )
+from probation.diagnosis.result import Checks
 from probation.effects.cause import Cause
 from probation.inference.calibration_check import Trust
 from probation.inference.evidence import Evidence
@@ -323,6 +325,14 @@ def test_an_explanation_that_counts_as_a_part_of_it_has_the_probability_of_both_
     assert (counted[0].hypothesis, counted[0].log_evidence) == (whole, 9.0)
     same = counted_as(weighed, ("a", "b"), ("a", "b"))
     assert [(each.effects, each.probability) for each in same] == [(each.effects, each.probability) for each in weighed]
+
+
+def test_an_explanation_that_counts_as_a_part_of_it_has_its_own_checks_not_those_of_the_part_by_itself():
+    weighed = [Weighed(("a", "b"), 0.6, alone("effect_a")), Weighed(("a",), 0.4, alone("effect_b"))]
+    checks = {("a", "b"): Checks(None, None, 0.6), ("a",): Checks(None, None, 1e-9)}
+    causes = Causes(BASE, (), [], weighed, checks, "explained").known_by(("a",))
+    assert [each.effects for each in causes.weighed] == [("a",)]
+    assert causes.checks[("a",)].remaining_p_value == 0.6
 
 
 def test_a_rare_effect_needs_more_evidence_alone_and_unseen():

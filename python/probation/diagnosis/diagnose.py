@@ -173,12 +173,13 @@ def diagnose(
     done(0.7, "measuring what causes close")
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
     weighed, verdict = causes.weighed, causes.verdict
-    chosen = answer_set(weighed, calibration.covered)
     if gap.exists:
         weighed = causes.with_untried(with_unseen(weighed, considered))
     best, explanations = weighed[0], explanations_of(weighed, causes.checks)
     parts = attribution(base, weighed, hypotheses, shrink.identify, workers)
     known_by = parts.counting(best.effects)
+    causes = causes.known_by(known_by)
+    chosen = answer_set(causes.weighed, calibration.covered)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     done(0.75, "choosing the next test")
@@ -229,14 +230,9 @@ def diagnose(
         where=where,
         acts=acts,
         signatures=signatures(base, best.hypothesis) if gap.exists else (),
-        explanations=explanations_of(
-            counted_as(weighed, best.effects, known_by),
-            {known_by if effects == best.effects else effects: made for effects, made in causes.checks.items()},
-        ),
+        explanations=explanations_of(counted_as(weighed, best.effects, known_by), causes.checks),
         effects=parts.effects,
-        answer_set=answer_set(
-            counted_as(causes.with_untried(causes.weighed), best.effects, known_by), calibration.covered
-        ),
+        answer_set=answer_set(causes.with_untried(causes.weighed), calibration.covered),
         shrink=shrink,
         next_test=following[0] if following else None,
         next_tests=following,

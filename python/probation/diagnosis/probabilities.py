@@ -352,6 +352,8 @@ def counted_as(weighed: Sequence[Weighed], whole: tuple[str, ...], part: tuple[s
     whole, part : tuple of str
         Effects of both.
     """
+    if whole == part:
+        return list(weighed)
     together = sum(each.probability for each in weighed if each.effects in (whole, part))
     others = [each for each in weighed if each.effects not in (whole, part)]
     counted = [replace(each, effects=part, probability=together) for each in weighed if each.effects == whole]
