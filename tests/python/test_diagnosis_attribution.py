@@ -156,23 +156,6 @@ def test_the_probability_of_an_effect_is_summed_over_all_explanations_that_hold_
         assert each.probability == pytest.approx(inside)
 
 
-def test_an_explanation_is_known_by_what_its_headline_names(two_effects, monkeypatch):
-    """As if the offset closed less than 1 %: list, answer set and headline say damage."""
-    monkeypatch.setattr("probation.diagnosis.attribution._named", lambda *_: ("damage",))
-    found = diagnose(few_records(both), effects=EFFECTS, design=False)
-    assert found.headline.startswith("Damage explains the gap")
-    assert "what else is in the explanation adds less than 1 % of the gap" in found.headline
-    assert found.best.effects == found.answer_set[0] == ("damage",)
-    assert all(each.effects != ("damage", "force_offset") for each in found.explanations)
-    both_ways = [each for each in two_effects.explanations if each.effects in (("damage",), ("damage", "force_offset"))]
-    assert found.best.probability == pytest.approx(sum(each.probability for each in both_ways))
-    assert (found.best.forms, found.best.checks) == (("growing",), two_effects.best.checks)
-    assert {parameter.effect for parameter in found.best.parameters} == {"damage", "force_offset"}
-    assert sum(each.probability for each in found.explanations) == pytest.approx(1.0)
-    by_name = {each.name: each.probability for each in found.effects}
-    assert by_name == {each.name: pytest.approx(each.probability) for each in two_effects.effects}
-
-
 def test_json_summary_and_page_say_it_effect_by_effect(two_effects, tmp_path):
     first = json.loads(two_effects.to_json())["effects"][0]
     assert {"name", "probability", "share", "records"} <= set(first)

@@ -7,12 +7,10 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
-from probation.diagnosis.causes import Causes
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.probabilities import (
     Weighed,
     answer_set,
-    counted_as,
     effect_count,
     given_a_gap,
     given_no_gap,
@@ -21,7 +19,6 @@ from probation.diagnosis.probabilities import (
     with_unseen,
     with_untried,
 )
-from probation.diagnosis.result import Checks
 from probation.effects.cause import Cause
 from probation.inference.calibration_check import Trust
 from probation.inference.evidence import Evidence
@@ -315,24 +312,6 @@ def test_answer_sets_hold_the_truth_as_often_as_they_promise():
         truth = "abcdef"[rng.choice(6, p=chances)]
         held += (truth,) in answer_set(named(*chances.tolist()), 0.95)
     assert held / 2000 >= 0.95 - 3.0 * np.sqrt(0.05 * 0.95 / 2000)
-
-
-def test_an_explanation_that_counts_as_a_part_of_it_has_the_probability_of_both_and_its_own_hypothesis():
-    whole, part, other = alone("effect_a"), alone("effect_b"), alone("effect_c")
-    weighed = [Weighed(("a", "b"), 0.5, whole, 9.0), Weighed(("c",), 0.3, other), Weighed(("a",), 0.2, part)]
-    counted = counted_as(weighed, ("a", "b"), ("a",))
-    assert [(each.effects, each.probability) for each in counted] == [(("a",), 0.7), (("c",), 0.3)]
-    assert (counted[0].hypothesis, counted[0].log_evidence) == (whole, 9.0)
-    same = counted_as(weighed, ("a", "b"), ("a", "b"))
-    assert [(each.effects, each.probability) for each in same] == [(each.effects, each.probability) for each in weighed]
-
-
-def test_an_explanation_that_counts_as_a_part_of_it_has_its_own_checks_not_those_of_the_part_by_itself():
-    weighed = [Weighed(("a", "b"), 0.6, alone("effect_a")), Weighed(("a",), 0.4, alone("effect_b"))]
-    checks = {("a", "b"): Checks(None, None, 0.6), ("a",): Checks(None, None, 1e-9)}
-    causes = Causes(BASE, (), [], weighed, checks, "explained").known_by(("a",))
-    assert [each.effects for each in causes.weighed] == [("a",)]
-    assert causes.checks[("a",)].remaining_p_value == 0.6
 
 
 def test_a_rare_effect_needs_more_evidence_alone_and_unseen():

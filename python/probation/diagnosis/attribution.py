@@ -104,11 +104,6 @@ class Attribution:
     after_MPa: float  # noqa: N815 - as it leaves the program
     probability: float
 
-    def counting(self, effects: Sequence[str]) -> tuple[str, ...]:
-        """Those of the best explanation's effects that it is known by: without what closes next to nothing."""
-        kept = {*self.named, *self.undivided, UNKNOWN}
-        return tuple(name for name in effects if name in kept) if self.named else tuple(effects)
-
     @property
     def undivided(self) -> tuple[str, ...]:
         """Effects of the best explanation that can stand in for each other, the one that closes most alone first."""

@@ -13,7 +13,6 @@ from probation.diagnosis.checks import checks
 from probation.diagnosis.held_out import HeldToAccount
 from probation.diagnosis.linear import linear_hypotheses
 from probation.diagnosis.probabilities import (
-    counted_as,
     effect_count,
     given_a_gap,
     given_no_gap,
@@ -100,12 +99,6 @@ class Causes:
     def skipped(self, skipping: Skipping) -> tuple[Skipped, ...]:
         """What was left out."""
         return skipping.entries(self.found, {} if self.cut is None else dict.fromkeys(self.untried, self.cut.why))
-
-    def known_by(self, effects: tuple[str, ...]) -> Causes:
-        """The same with the best explanation counted as a part of it, and the checks of the whole."""
-        whole = self.weighed[0].effects
-        checked = {**self.checks, effects: self.checks[whole]} if whole in self.checks else self.checks
-        return replace(self, weighed=counted_as(self.weighed, whole, effects), checks=checked)
 
     def with_unknown_added(self) -> Causes:
         """The best explanation with its checks, also where it leads only together with an unknown effect."""

@@ -17,7 +17,7 @@ from probation.diagnosis.explain import base_parameters, explanations_of, region
 from probation.diagnosis.headline import headline, with_budget, with_remainder
 from probation.diagnosis.held_out import all_but_one, made_worse
 from probation.diagnosis.next import is_stretched, next_test_of, one_after_the_other
-from probation.diagnosis.probabilities import answer_set, counted_as, with_unseen
+from probation.diagnosis.probabilities import answer_set, with_unseen
 from probation.diagnosis.remainder import is_left, remainder_of
 from probation.diagnosis.remainder_tests import remainder_tests
 from probation.diagnosis.result import Diagnosis
@@ -173,13 +173,11 @@ def diagnose(
     done(0.7, "measuring what causes close")
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
     weighed, verdict = causes.weighed, causes.verdict
+    chosen = answer_set(weighed, calibration.covered)
     if gap.exists:
         weighed = causes.with_untried(with_unseen(weighed, considered))
     best, explanations = weighed[0], explanations_of(weighed, causes.checks)
     parts = attribution(base, weighed, hypotheses, shrink.identify, workers)
-    known_by = parts.counting(best.effects)
-    causes = causes.known_by(known_by)
-    chosen = answer_set(causes.weighed, calibration.covered)
     left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     done(0.75, "choosing the next test")
@@ -230,7 +228,7 @@ def diagnose(
         where=where,
         acts=acts,
         signatures=signatures(base, best.hypothesis) if gap.exists else (),
-        explanations=explanations_of(counted_as(weighed, best.effects, known_by), causes.checks),
+        explanations=explanations,
         effects=parts.effects,
         answer_set=answer_set(causes.with_untried(causes.weighed), calibration.covered),
         shrink=shrink,

@@ -25,14 +25,13 @@ def explanations_of(weighed: Sequence[Weighed], checks: Mapping[tuple[str, ...],
     """Entries of the answer, in the order of `weighed`, with the checks of those that were checked."""
     entries = []
     for explanation in weighed:
-        causes = [cause for cause in explanation.hypothesis.causes if cause.effect.name in explanation.effects]
-        views = explanation.hypothesis.refit.model.views
+        causes = explanation.hypothesis.causes
         entries.append(
             Explanation(
                 effects=explanation.effects,
                 titles=tuple(title(name) for name in explanation.effects),
                 forms=tuple(cause.form.name for cause in causes),
-                records=tuple(view.id for view in views if any(cause.touches(view.id) for cause in causes)),
+                records=explanation.hypothesis.records,
                 probability=explanation.probability,
                 parameters=cause_parameters(explanation.hypothesis),
                 checks=checks.get(explanation.effects),

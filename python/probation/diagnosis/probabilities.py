@@ -341,25 +341,6 @@ def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
     return normalised([*changed, *(explanation for explanation in weighed[1:] if explanation.effects != extended)])
 
 
-def counted_as(weighed: Sequence[Weighed], whole: tuple[str, ...], part: tuple[str, ...]) -> list[Weighed]:
-    """The same with one explanation counted as a part of it: what the whole has beyond that closes next to nothing.
-
-    It keeps its hypothesis, and has the probability of both.
-
-    Parameters
-    ----------
-    weighed : sequence of Weighed
-    whole, part : tuple of str
-        Effects of both.
-    """
-    if whole == part:
-        return list(weighed)
-    together = sum(each.probability for each in weighed if each.effects in (whole, part))
-    others = [each for each in weighed if each.effects not in (whole, part)]
-    counted = [replace(each, effects=part, probability=together) for each in weighed if each.effects == whole]
-    return sorted([*counted, *others], key=lambda explanation: -explanation.probability)
-
-
 def normalised(weighed: Sequence[Weighed]) -> list[Weighed]:
     """Probabilities over their sum, most probable first."""
     total = sum(explanation.probability for explanation in weighed)

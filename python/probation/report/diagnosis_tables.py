@@ -7,6 +7,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.headline import title
+from probation.inference.unknown import UNKNOWN
 from probation.report.diagnosis_words import (
     checks_text,
     closed,
@@ -112,7 +113,7 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
         (
             title(effect.name),
             chance(effect.probability),
-            "–" if effect.alone is None and effect.name not in diagnosis.best.effects else _share(effect.share),
+            "–" if effect.name not in diagnosis.best.effects else _share(effect.share),
             _share(effect.alone),
             _share(effect.in_addition),
             "" if set(effect.records) >= {*fitted} else ", ".join(names.get(name, name) for name in effect.records),
@@ -219,8 +220,10 @@ def leading(diagnosis: Diagnosis) -> tuple[Explanation, ...]:
 
 def mended_by(diagnosis: Diagnosis) -> str:
     """What the curves and errors called "after" are made with; empty where nothing of the catalogue helps."""
-    known = tuple(sorted({parameter.effect for parameter in diagnosis.best.parameters}))
-    titles = tuple(title(effect) for effect in known)
+    known = tuple(effect for effect in diagnosis.best.effects if effect != UNKNOWN)
+    titles = tuple(
+        title for effect, title in zip(diagnosis.best.effects, diagnosis.best.titles, strict=False) if effect in known
+    )
     return explanation_name(replace(diagnosis.best, effects=known, titles=titles), diagnosis) if known else ""
 
 
