@@ -172,12 +172,12 @@ class Refitting:
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
         if not weak:
-            far = self._furthest(there) > SEARCH.farthest_specimen
-            if far and there.chi_square <= self.base.refit.chi_square:
+            if self._furthest(there) <= SEARCH.farthest_specimen:
+                fit = refit(problem, start, most_steps=steps)
+                if self._furthest(fit) <= 1.0:
+                    return fit
+            elif there.chi_square <= self.base.refit.chi_square:
                 return there
-            fit = there if far else refit(problem, start, most_steps=steps)
-            if self._furthest(fit) <= 1.0:
-                return fit
         return self._from_alike(there, alike, steps, differentiable=differentiable)
 
     def _from_alike(self, there: Refit, alike: FloatArray, steps: int, *, differentiable: bool) -> Refit:

@@ -30,8 +30,6 @@ class History:
     ----------
     kind : str
         One of `KINDS`.
-    rate : float [1/s]
-        The nominal one.
     time : ndarray, shape (n,) [s]
         Of the samples.
     fine, strain : ndarray, shape (n_fine,)
@@ -41,7 +39,6 @@ class History:
     """
 
     kind: str
-    rate: float
     time: FloatArray
     fine: FloatArray
     strain: FloatArray
@@ -94,7 +91,7 @@ def _necking(rate: float, end: float, random: Generator, count: int, substeps: i
     time = np.linspace(0, duration, count + 1)
     fine, at = _instants(time, [], substeps)
     passed = 0.5 * end * share * erf((np.append(0.0, fine) - centre * duration) / width / np.sqrt(2))
-    return History("necking", rate, time, fine, rate * fine + passed[1:] - passed[0], at)
+    return History("necking", time, fine, rate * fine + passed[1:] - passed[0], at)
 
 
 KINDS = {"ramp": _ramp, "jump": _jump, "unloading": _unloading, "necking": _necking}
@@ -118,12 +115,11 @@ def _segments(kind: str, parts: Sequence[tuple[float, float]], random: Generator
         size, phase = random.normal(0, _WANDER / order), random.uniform(0, 2 * np.pi)
         omega = 2 * np.pi * order / time[-1]
         wave += size / omega * (np.sin(omega * fine + phase) - np.sin(phase))
-    nominal = abs(parts[0][0])
     if len(parts) == 1:
-        wander = wave * nominal
+        wander = wave * abs(parts[0][0])
     else:  # along the way that the crosshead goes
         wander = np.interp(path, fine / fine[-1] * path[-1], wave / fine[-1] * path[-1])
-    return History(kind, nominal, time, fine, strain + wander, at)
+    return History(kind, time, fine, strain + wander, at)
 
 
 def _instants(samples: FloatArray, breaks: Iterable[float], substeps: int) -> tuple[FloatArray, NDArray[np.intp]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation_studies.blind.laboratories.test_house.modal import RATIOS, WEIGHTS, haward_thackray, solve
+from probation_studies.blind.laboratories.test_house.modal import WEIGHTS, haward_thackray, solve
 from probation_studies.blind.laboratories.test_house.trial import Run
 
 if TYPE_CHECKING:
@@ -92,7 +92,6 @@ def _stress(run: Run, changes: Sequence[Change]) -> FloatArray:
         tau,
         relaxed,
         law.modulus,
-        ratios=RATIOS,
         weights=weights,
         start=start,
         feedback=feedback if feedbacks else None,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import astuple, replace
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -67,10 +68,9 @@ class Metric:
         """Signals of the law's three parameters, as columns."""
         return {name: columns[:, :3] for name, columns in self.tangents.items()}
 
-    def beside(self, signals: Signals) -> Metric:
+    def jointly_with(self, signals: Signals) -> Metric:
         """With more signals that are fitted anyway."""
-        other = Metric.__new__(Metric)
-        other.__dict__.update(self.__dict__)
+        other = copy(self)
         other._fit(signals)
         return other
 

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 ATTEMPTS, _PATIENCE = 60, 12
 _AIMS = LogEven(30.0, 500.0)
 LEAST, LEAST_OF_PAIR, MOST = 0.95 * 30.0, 0.95 * 20.0, 1500.0
-"""sqrt(lambda) after the law's refit, of one cause alone and beside another."""
+"""sqrt(lambda) after the law's refit, of one cause alone and jointly with another."""
 RESOLVABLE = 8.0
 """sqrt(lambda) that the nearest other cause must leave."""
 _UNSEEN = 3.0
@@ -134,7 +134,7 @@ def _planted(random: Generator, plan: Plan, forms: Sequence[Form]) -> Series | N
     signals = [gap] if len(effects) == 1 else [signal_of(tests, each, base) for each in effects]
     planted = []
     for k, (effect, signal) in enumerate(zip(effects, signals, strict=True)):
-        own = metric if len(effects) == 1 else metric.beside(signals[1 - k])
+        own = metric if len(effects) == 1 else metric.jointly_with(signals[1 - k])
         shown = own.left(signal)
         size = float(np.linalg.norm(shown))
         if not (LEAST if len(effects) == 1 else LEAST_OF_PAIR) <= size <= MOST:

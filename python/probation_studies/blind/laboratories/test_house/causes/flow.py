@@ -222,7 +222,7 @@ FLOW = (
     Form("change_between_tests", "moisture", _moisture, 0.01, 0.5, {"sign": _SIGN}, needs=_ORDER),
     Form("change_between_tests", "ageing", _ageing, 0.03, 1.5, {"mu": Even(0.6, 1.0)}, needs=_ORDER),
 )  # fmt: skip
-"""Of the material, beside its network."""
+"""Of the material but for its network."""
 
 RIVALS = (
     Form("temperature_drift", "test_to_test", _warming_room, 0.01, 1.0),

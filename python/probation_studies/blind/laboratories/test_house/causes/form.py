@@ -71,7 +71,7 @@ class Form:
     low, high : float
         Range of plausible amounts.
     shape : mapping
-        Free numbers beside the amount.
+        Free numbers in addition to the amount.
     scope : {"all", "one", "either"}
         Records that it touches.
     needs : frozenset of str

@@ -91,7 +91,7 @@ def _first_order(a: float, q: Shape, test: Test) -> Change:
 
 
 def _armstrong_frederick(a: float, q: Shape, test: Test) -> Change:
-    """Armstrong and Frederick 1966: dX = C d eps - g X |d eps|, beside the law; the amount is C/g [MPa]."""
+    """Armstrong and Frederick 1966: dX = C d eps - g X |d eps|, on top of the law; the amount is C/g [MPa]."""
 
     def stress(run: Run, before: FloatArray) -> FloatArray:
         back = np.zeros(len(before))
