@@ -86,6 +86,17 @@ def test_the_turning_points_of_short_unloadings_are_found():
         assert np.all(np.abs(np.array(found) - turns[1:]) <= 1.0)
 
 
+@pytest.mark.parametrize("noise", [3e-5, 7e-5])
+def test_the_turning_points_of_a_short_unloading_are_found_where_they_fall_on_samples(noise):
+    """Two unloadings of 21 samples, as many as a window has, from 3.3e-4 a sample to as much down and up again."""
+    time = np.arange(1300.0)
+    strain = 3.3e-4 * np.interp(time, [0, 450, 471, 880, 901, 1299], [0, 450, 429, 838, 817, 1215])
+    for seed in range(20):
+        found = find_jumps(time, strain + noise * np.random.default_rng(seed).standard_normal(1300), noise)
+        assert len(found) == 4
+        assert np.all(np.abs(np.array(found) - [450, 471, 880, 901]) <= 1)
+
+
 @pytest.mark.parametrize("lag", [2.0, 5.0])
 def test_a_machine_that_lags_behind_one_jump_makes_no_second_one(lag):
     """The rate follows by a time constant of two or five samples."""
