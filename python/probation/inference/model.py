@@ -77,6 +77,8 @@ class CampaignModel:
         The law's, then each cause's.
     data : ndarray, shape (n_samples,) [MPa]
         Recorded true stress of all records, stacked.
+    base_count : int
+        How many parameters the base law has.
 
     Raises
     ------
@@ -102,11 +104,7 @@ class CampaignModel:
         ends = np.cumsum([len(view.data) for view in self.views]).tolist()
         self._rows = {view.id: slice(end - len(view.data), end) for view, end in zip(self.views, ends, strict=True)}
         self.data: Final = np.concatenate([view.data for view in self.views])
-
-    @property
-    def base_count(self) -> int:
-        """How many parameters the base law has."""
-        return len(self.law.parameter_names)
+        self.base_count: Final = len(law.parameter_names)
 
     @property
     def base_scales(self) -> FloatArray:
