@@ -303,17 +303,6 @@ def test_damage_is_the_area_lost_and_stays(form, values, left):
     np.testing.assert_allclose(ratio[-150:], left(1.0), rtol=1e-9)
 
 
-@pytest.mark.parametrize("exponent", [0.5, 1.5])
-def test_damage_by_energy_follows_a_power_of_the_squared_stress_beyond_its_threshold(exponent):
-    """At a constant stress of twice the reference the area is exp(-a 2^(2n) (e - e_0)), e the largest strain so far."""
-    loop = up_and_down()
-    held = replace(loop, true_stress=np.full(len(loop.time), 40.0))
-    found, _ = predicted(LAW, held, "damage", "by_energy", (0.1, exponent, 0.2))
-    ratio = found[1:] / LAW.stress(loop.time, loop.true_strain)[1:]
-    assert ratio[199] == pytest.approx(math.exp(-0.1 * 4.0**exponent * 0.3), rel=2e-3)
-    np.testing.assert_allclose(ratio[-150:], math.exp(-0.1 * 4.0**exponent * 0.8), rtol=2e-3)
-
-
 def test_flow_by_the_stress_that_the_network_does_not_carry_is_quicker_by_one_factor_where_that_is_constant():
     """A recorded stress of 10 MPa above h e_HT: tau_max over 1 + a / 2^m."""
     record = ramp(samples=2001)
@@ -402,29 +391,6 @@ def test_hardening_that_is_delayed_in_strain_waits_for_no_time():
     late = grown * np.exp(2.0 * largest) - shrunk * np.exp(-largest) + (shrunk - grown) * np.exp(-largest / lag)
     part = late[1:] / (np.exp(2.0 * largest[1:]) - np.exp(-largest[1:]))
     np.testing.assert_allclose(found[1:], 2.0 * part * views[0].haward_thackray_strain[1:], rtol=2e-3, atol=2e-3)
-
-
-def test_a_network_that_is_there_once_fibrils_are_stays_there():
-    """Relaxed: G (1 - a / (1 + (e / e_c)^m)) e_HT, e the largest strain so far."""
-    loop = up_and_down()
-    found, views = predicted(QUICK, loop, "delayed_hardening", "transformed", (0.6, 0.3, 4.0))
-    largest = np.maximum.accumulate(loop.true_strain)
-    expected = 2.0 * (1.0 - 0.6 / (1.0 + (largest / 0.3) ** 4)) * views[0].haward_thackray_strain
-    np.testing.assert_allclose(found[1:], expected[1:], rtol=2e-3, atol=2e-3)
-
-
-@pytest.mark.parametrize("pace", [2.0, 60.0])
-def test_a_network_that_forms_at_its_own_pace_follows_what_the_strain_calls_for(pace):
-    """Relaxed, on a ramp: the part formed is the integral of e^(-(t - s) / T) (1 - e^(-(e(s) / e_c)^2)) ds / T."""
-    record = ramp(samples=3001)
-    found, views = predicted(QUICK, record, "delayed_hardening", "at_its_own_pace", (0.5, 0.25, pace))
-    for index in (600, 1500, 3000):
-        end = float(record.time[index])
-        formed = quad(
-            lambda s, end=end: math.exp(-(end - s) / pace) * -math.expm1(-((RATE * s / 0.25) ** 2)) / pace, 0.0, end
-        )[0]
-        expected = 2.0 * (1.0 - 0.5 * (1.0 - formed)) * views[0].haward_thackray_strain[index]
-        assert found[index] == pytest.approx(expected, rel=2e-3)
 
 
 @pytest.mark.parametrize("relaxation_strain", [1e-5, 1e-3, 0.2, 50.0])

@@ -71,7 +71,6 @@ NUMERICAL = {
     "smoothing/savitzky_golay.py": {"WINDOWS", "EVEN", "AT_ONCE"},
     "smoothing/smoothed.py": {"ROUNDS"},
     "effects/coordinate.py": {"NEARLY"},
-    "effects/hill.py": {"NOTHING"},
     "effects/maxwell_element.py": {"LONGEST"},
     "effects/record_view.py": {"_MOVING"},
     "effects/relaxation_spectra.py": {"_ANGLES"},

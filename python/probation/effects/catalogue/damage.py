@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.effects.hill import hill
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
@@ -16,11 +15,8 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
-REFERENCE_STRESS = 20.0
-"""Stress at which the amplitude of the form by energy is meant [MPa]: the yield stress of polyolefins, roughly."""
-
-_MOST_LOSS = 3.0
-"""-ln of the least area that is left: a specimen that carries a twentieth has failed."""
+_NO_STRAIN = 1e-9
+"""Strain over that of the middle [-] which stands for none: no area is lost there, and its power is finite."""
 
 _REASON = "voids and broken lamellae take some tenths of the section before failure"
 
@@ -37,26 +33,14 @@ def _growing(view: RecordView, values: Values) -> Modification:
 
 def _about_a_strain(view: RecordView, values: Values) -> Modification:
     """Area e^(-a h), h = e^m / (e^m + e_c^m) (Hill), e the largest strain so far."""
-    return Modification(load_bearing_area=np.exp(-values[0] * hill(view.largest_strain, values[1], values[2])))
+    part = np.maximum(view.largest_strain, 0.0) / values[1]
+    return Modification(load_bearing_area=np.exp(-values[0] / (1.0 + np.maximum(part, _NO_STRAIN) ** -values[2])))
 
 
 def _beyond_a_strain(view: RecordView, values: Values) -> Modification:
     """Area 1 - a (1 - e^(-(e - e_0) / w)) beyond a threshold e_0, e the largest strain so far (Mazars)."""
     beyond = np.maximum(view.largest_strain - values[1], 0.0)
     return Modification(load_bearing_area=1.0 + values[0] * np.expm1(-beyond / values[2]))
-
-
-def _by_energy(view: RecordView, values: Values) -> Modification:
-    """Area e^(-a w), w the integral of (s / 20 MPa)^(2n) over the largest strain so far beyond a threshold (Lemaitre).
-
-    s is the recorded true stress, smoothed; its square is what damage releases of the elastic energy.
-    """
-    loss, exponent, threshold = values
-    stress = np.abs(view.smooth_nominal_data * view.stretch) / REFERENCE_STRESS
-    beyond = np.maximum(view.largest_strain - threshold, 0.0)
-    release = stress ** (2.0 * exponent)
-    grown = np.append(0.0, np.cumsum(0.5 * (release[1:] + release[:-1]) * np.diff(beyond)))
-    return Modification(load_bearing_area=np.exp(-np.minimum(loss * grown, _MOST_LOSS)))
 
 
 _LOSS = EffectParameter("area_loss", "", 0.0, 0.95, 0.2, _REASON)
@@ -82,25 +66,6 @@ _GROWTH = EffectParameter(
 )
 
 
-_RELEASE_EXPONENT = EffectParameter(
-    name="release_exponent",
-    unit="",
-    lower=0.2,
-    upper=4.0,
-    centre=1.0,
-    scale=0.5,
-    log=True,
-    reason="1 is Lemaitre's usual choice; up to some units for brittle materials",
-)
-
-
-def _energy_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """In proportion to the energy, from thresholds at 10 and 40 % of the largest true strain on."""
-    largest = max(float(np.max(view.largest_strain)) for view in views)
-    thresholds = np.clip(np.array([0.1, 0.4]) * largest, _THRESHOLD.lower, _THRESHOLD.upper)
-    return [(1.0, float(threshold)) for threshold in thresholds]
-
-
 def _thresholds(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Thresholds at 10 to 70 % of the largest true strain, with a growth over 30 % of it."""
     largest = max(float(np.max(view.largest_strain)) for view in views)
@@ -119,7 +84,7 @@ EFFECT = Effect(
     physics=(
         "Voids and breakage take load-bearing area for good, the more the further the specimen has been strained.\n"
         "Amplitude: -ln of the area left, at large strain, or at a strain of 1 (growing); the area lost (beyond "
-        "a strain); its rate per strain at 20 MPa (by energy)."
+        "a strain)."
     ),
     source=(
         "Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Mazars & Pijaudier-Cabot 1989, J. Eng. Mech. "
@@ -199,17 +164,6 @@ EFFECT = Effect(
             (_LOSS, _THRESHOLD, _GROWTH),
             modification=_beyond_a_strain,
             starts=_thresholds,
-            variant=True,
-        ),
-        Form(
-            "by_energy",
-            (
-                EffectParameter("area_loss_per_strain_at_20MPa", "", 0.0, 20.0, 0.3, _REASON),
-                _RELEASE_EXPONENT,
-                _THRESHOLD,
-            ),
-            modification=_by_energy,
-            starts=_energy_starts,
             variant=True,
         ),
     ),

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.effects.hill import hill
 from probation.effects.maxwell_element import maxwell_element, maxwell_element_in_strain
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.modification import Modification
@@ -34,29 +33,6 @@ _TIME = EffectParameter(
     log=True,
     reason="between the time of a yield and that of a whole test",
 )
-_LATE = EffectParameter("late_part", "", 0.0, 1.0, 0.3, "some tenths of the network, up to all of it")
-_STRAIN = EffectParameter(
-    name="transformation_strain",
-    unit="",
-    lower=0.02,
-    upper=3.0,
-    centre=0.3,
-    scale=0.8,
-    log=True,
-    reason="lamellae turn into fibrils between yield and some tenths of strain (Farge)",
-)
-_ABRUPTNESS = EffectParameter(
-    name="abruptness",
-    unit="",
-    lower=1.5,
-    upper=12.0,
-    centre=4.0,
-    scale=0.5,
-    log=True,
-    reason="nine tenths of it within a factor of three to ten of the strain",
-)
-_NUCLEATED = 2.0
-"""Avrami's exponent where fibrils begin at places that open up in proportion to the strain and grow no further."""
 
 
 def _lag(view: RecordView, time_constant: float) -> FloatArray:
@@ -92,36 +68,6 @@ def _in_strain(view: RecordView, values: Values) -> Modification | None:
     return Modification(hardening_factor=1.0 - _part_of(missing, strain))
 
 
-def _transformed(view: RecordView, values: Values) -> Modification:
-    """The part a of G is there only as lamellae have turned into fibrils, about the largest strain so far (Hill)."""
-    part, strain, abruptness = values
-    return Modification(hardening_factor=1.0 - part * (1.0 - hill(view.largest_strain, strain, abruptness)))
-
-
-def _at_its_own_pace(view: RecordView, values: Values) -> Modification:
-    """The part a of G forms with a time constant towards what the largest strain so far calls for (Avrami)."""
-    part, strain, time_constant = values
-    called = -np.expm1(-((np.maximum(view.largest_strain, 0.0) / strain) ** _NUCLEATED))
-    formed = called - maxwell_element(view.time, called, time_constant)
-    return Modification(hardening_factor=1.0 - part * (1.0 - formed))
-
-
-def _strains(views: Sequence[RecordView]) -> FloatArray:
-    """A tenth, a quarter and a half of the largest true strain."""
-    largest = max(float(np.max(view.largest_strain)) for view in views)
-    return np.clip(np.array([0.1, 0.25, 0.5]) * largest, _STRAIN.lower, _STRAIN.upper)
-
-
-def _transformed_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """Gradual and abrupt about each of these strains."""
-    return [(float(strain), abruptness) for strain in _strains(views) for abruptness in (2.0, 5.0)]
-
-
-def _paced_starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    """Two of these strains, with the build-up times of a part that lags."""
-    return [(float(strain), time) for strain in _strains(views)[:2] for (time,) in _starts(views, residuals)]
-
-
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Build-up times of 3 and 30 % of the longest record [s]."""
     longest = max(view.duration for view in views)
@@ -134,12 +80,11 @@ EFFECT = Effect(
     title="delayed hardening",
     physics=(
         "The fibrillar network forms in time, or with further strain, not at once: the relaxed stress lags.\n"
-        "Amplitude: the lag of all of it in time or in strain, or the part of it that lags in time; or the part that "
-        "is there only once the structure has turned into fibrils, about a strain or at a pace of its own."
+        "Amplitude: the lag of all of it in time or in strain, or the part of it that lags in time."
     ),
     source=(
         "André et al., section 4 (G changes 'only in a delayed manner'); Farge et al. 2015; in strain: Armstrong & "
-        "Frederick 1966 (reprinted 2007, Mater. High Temp. 24, 1); transformed: Avrami 1939, J. Chem. Phys. 7, 1103"
+        "Frederick 1966 (reprinted 2007, Mater. High Temp. 24, 1)"
     ),
     shows_in="fast records, dwells after large strains, unloading",
     kind="material",
@@ -169,20 +114,6 @@ EFFECT = Effect(
             modification=_in_strain,
             threshold=True,
             starts=lambda _views, _residuals: [(lag,) for lag in _LAGS],
-        ),
-        Form(
-            "transformed",
-            (_LATE, _STRAIN, _ABRUPTNESS),
-            modification=_transformed,
-            starts=_transformed_starts,
-            variant=True,
-        ),
-        Form(
-            "at_its_own_pace",
-            (_LATE, _STRAIN, _TIME),
-            modification=_at_its_own_pace,
-            starts=_paced_starts,
-            variant=True,
         ),
     ),
 )
