@@ -73,7 +73,7 @@ COORDINATES: Mapping[Coordinate, Callable[[RecordView], FloatArray]] = {
     "time": lambda view: view.elapsed / view.duration,
     "log_time": _log_time,
     "force": lambda view: view.smooth_nominal_data,
-    "stress": lambda view: view.smooth_nominal_data * view.stretch,
+    "stress": lambda view: view.smooth_true_data,
     "temperature": _temperature,
     "order": lambda view: np.full(len(view), float(view.index)),
 }

@@ -261,6 +261,11 @@ class RecordView:
         smooth = smooth_segments(smooth_cubic, time, samples, jumps, noise=0.0).true_strain
         return smooth if self.stride == 1 else np.interp(self.time, time, smooth)
 
+    @property
+    def smooth_true_data(self) -> FloatArray:
+        """The recorded true stress that goes with `smooth_nominal_data`, (n,) [MPa]."""
+        return self.smooth_nominal_data * self.stretch
+
     def sampled(self, values: FloatArray) -> FloatArray:
         """Values at the samples, of values at the instants."""
         return values[:: self.stride]

@@ -305,7 +305,7 @@ class CampaignModel:
         def under(stress: FloatArray, *, sensitivity: bool = False) -> Specimen:
             return self._driven(view.quietened(stress), base, causes, sensitivity)
 
-        start = view.smooth_nominal_data * view.stretch
+        start = view.smooth_true_data
         if near is not None:  # a small change is lost within `settled` of the force, unless its first order is taken
             start = near.moved(under(near.stress).stress)
         frame = self._frame(view.quietened(start), base, causes)

@@ -49,7 +49,7 @@ class Whitener:
         for index, part in enumerate(self.slices):
             block = matrix[part]
             seen = block[-1] != 0.0  # what acts in one record is nothing in the others
-            if not seen.all():
+            if not seen.all():  # mostly the last sample says so, in an eighth of the time
                 seen = block.any(axis=0)
             if seen.all():
                 white[part] = self.of_record(index, block)

@@ -108,13 +108,14 @@ def _as_two(time: FloatArray, values: FloatArray, noise: float, jump: int, betwe
     def around(*corners: int) -> tuple[float, list[int]]:
         """What corners leave, each between a sample and the next, and the samples nearest to them.
 
-        A hinge at both samples is one anywhere between, if both bend the same way; at a corner that is at the first of
-        them noise alone bends the other. The slopes must differ enough.
+        A hinge at both samples is one anywhere between, if both bend the same way. Where the corner lies at the first
+        sample, noise alone may bend the second hinge the other way: then it is left out. The slopes must differ enough.
         """
         basis = np.column_stack([bent, *(behind[at + own] for at in corners for own in (0, 1))])
         solution = np.linalg.lstsq(basis, y, rcond=None)[0]
-        if np.any(at_sample := solution[3::2] * solution[4::2] < 0.0):
-            basis[:, 4::2][:, at_sample] = 0.0
+        opposite = solution[3::2] * solution[4::2] < 0.0
+        if opposite.any():
+            basis[:, 4::2][:, opposite] = 0.0
             solution = np.linalg.lstsq(basis, y, rcond=None)[0]
         here, beyond = solution[3::2], solution[4::2]
         change = here + beyond

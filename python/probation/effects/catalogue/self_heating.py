@@ -166,7 +166,7 @@ def _kept_work(view: RecordView, cooling: float) -> FloatArray:
 
 def _kept_heat(view: RecordView, cooling: float, stored_hardening: float, stored_compliance: float) -> FloatArray:
     """The same of the work that is not stored in the network, nor as elastic energy; shape (n,) [MPa]."""
-    stress = view.smooth_nominal_data * view.stretch
+    stress = view.smooth_true_data
     flow = stress - stored_hardening * haward_thackray_strain(view.true_strain)
     work = np.append(0.0, np.cumsum(0.5 * (flow[1:] + flow[:-1]) * np.diff(view.true_strain)))
     return maxwell_element(view.time, work - 0.5 * stored_compliance * stress**2, 1.0 / cooling)

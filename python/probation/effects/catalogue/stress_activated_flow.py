@@ -67,8 +67,7 @@ def _beyond_the_network(view: RecordView, values: Values) -> Modification:
     s is the recorded true stress, smoothed.
     """
     gain, exponent, hardening = values
-    stress = view.smooth_nominal_data * view.stretch
-    driving = np.abs(stress - hardening * view.haward_thackray_strain) / REFERENCE_STRESS
+    driving = np.abs(view.smooth_true_data - hardening * view.haward_thackray_strain) / REFERENCE_STRESS
     return Modification(relaxation_time_factor=1.0 / (1.0 + gain * driving**exponent))
 
 
