@@ -11,7 +11,7 @@ from scipy.special import logsumexp
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.inference.candidate import Key, cause_key
 from probation.inference.evidence import evidence
-from probation.inference.refit import Coordinates, Refit, refit
+from probation.inference.refit import Refit, refit
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import without
 from probation.settings.search import SEARCH
@@ -76,7 +76,7 @@ def _at_zero(base: BaseFit, columns: WhitenedColumns, index: int) -> Refit:
     jacobian = np.zeros((len(base.whitened), len(parameters)))
     jacobian[:, : model.base_count] = base.refit.jacobian
     jacobian[:, model.base_count] = columns.matrix[:, index]
-    return Refit(problem, parameters, base.refit.residual, jacobian, Coordinates.of_model(model))
+    return Refit(problem, parameters, base.refit.residual, jacobian)
 
 
 def _sharp(fit: Refit) -> bool:

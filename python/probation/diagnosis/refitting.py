@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from probation.inference.base_fit import BaseFit
     from probation.inference.candidate import Key
     from probation.inference.model import CampaignModel
+    from probation.inference.problem import Problem
 
     Job: TypeAlias = "tuple[CampaignModel, FloatArray | Refit]"
     """A model, and where its refit begins."""
@@ -144,20 +145,19 @@ class Refitting:
         specimens that are alike end, unless its next steps leave more. A search that explains less than no effect does
         goes on: a fault in one record pulls the law of specimens that are alike.
         """
-        if not self.base.scatter.any:
-            return refit(self.base.problem.with_model(model), start, most_steps=steps)
-        try:
-            return self._refit(model, start, steps)
-        except UNSOLVABLE:  # perhaps where it went on without derivatives; then it takes twice the time
-            return self._refit(model, start, steps, differentiable=True)
-
-    def _refit(
-        self, model: CampaignModel, start: FloatArray | Refit, steps: int, *, differentiable: bool = False
-    ) -> Refit:
-        model = RememberingModel(model)
-        problem, noises = self.base.problem.with_model(model), self.base.alike.noises
+        problem = self.base.problem.with_model(RememberingModel(model))
         if isinstance(start, Refit):
             start = replace(start, problem=problem)
+        if not self.base.scatter.any:
+            return refit(problem, start, most_steps=steps)
+        try:
+            return self._refit(problem, start, steps)
+        except UNSOLVABLE:  # perhaps where it went on without derivatives; then it takes twice the time
+            return self._refit(problem, start, steps, differentiable=True)
+
+    def _refit(self, problem: Problem, start: FloatArray | Refit, steps: int, *, differentiable: bool = False) -> Refit:
+        model, noises = problem.model, self.base.alike.noises
+        if isinstance(start, Refit):
             first, misfit = start.parameters, start.chi_square
         else:
             first = start

@@ -189,7 +189,7 @@ class Search:
         """
         forms: dict[frozenset[Key], Hypothesis] = {}
         for hypothesis in sorted(self.found[1:], key=_standing, reverse=True):
-            forms.setdefault(_keys(hypothesis.refit), hypothesis)
+            forms.setdefault(hypothesis.refit.keys, hypothesis)
         chosen: list[Hypothesis] = []
         for size in dict.fromkeys(len(hypothesis.effects) for hypothesis in forms.values()):
             as_many = [hypothesis for hypothesis in forms.values() if len(hypothesis.effects) == size]
@@ -326,9 +326,9 @@ class Search:
 
     def _extend(self, leading: Iterable[Hypothesis], extended: set[frozenset[Key]]) -> None:
         """One more cause jointly with those of hypotheses that were not `extended` yet."""
-        wanted = [hypothesis for hypothesis in leading if _keys(hypothesis.refit) not in extended]
+        wanted = [hypothesis for hypothesis in leading if hypothesis.refit.keys not in extended]
         self._additions([(hypothesis, None) for hypothesis in wanted])
-        extended.update(_keys(hypothesis.refit) for hypothesis in wanted)
+        extended.update(hypothesis.refit.keys for hypothesis in wanted)
 
     def _additions(self, wanted: Sequence[tuple[Hypothesis, Cause | None]]) -> None:
         """One more cause jointly with those of each hypothesis.
@@ -443,7 +443,7 @@ class Search:
         while leading := self.ranked()[:1]:
             whole = leading[0].refit
             causes = whole.model.causes
-            key = _keys(whole)
+            key = whole.keys
             if len(causes) < 2 or key in self._taken_apart or self.budget.spent():
                 return
             self._taken_apart.add(key)
@@ -456,7 +456,7 @@ class Search:
             parts = self._judged(self._solved(jobs, MOST_STEPS))
             self.found += parts
             once = [cause for cause in causes if sum(other.effect is cause.effect for other in causes) == 1]
-            of = {_keys(hypothesis.refit): hypothesis for hypothesis in reversed(parts)}
+            of = {hypothesis.refit.keys: hypothesis for hypothesis in reversed(parts)}
             without = [(of.get(key - {cause_key(cause)}), cause) for cause in once]
             self._additions([(part, cause) for part, cause in without if part is not None])
             self._try_with_unknown()
@@ -469,8 +469,8 @@ class Search:
         """
         leading = self.ranked()[:1]
         least_standing = _standing(leading[0]) - SEARCH.hopeless if leading else -np.inf
-        near = [_keys(hypothesis.refit) for hypothesis in self.found[1:] if _standing(hypothesis) > least_standing]
-        hopeful = [any(keys <= _keys(hypothesis.refit) for keys in near) for hypothesis in self.found[1:]]
+        near = [hypothesis.refit.keys for hypothesis in self.found[1:] if _standing(hypothesis) > least_standing]
+        hopeful = [any(keys <= hypothesis.refit.keys for keys in near) for hypothesis in self.found[1:]]
         before = [hypothesis.refit for hypothesis in compress(self.found[1:], hopeful)]
         after = self._not_above_their_parts(before)
         moved = {id(old): new for old, new in zip(before, after, strict=True) if new is not old}
@@ -479,7 +479,7 @@ class Search:
         least = _least_of_each(hypothesis.refit for hypothesis in hypotheses)
         self.found = self.found[:1]
         for hypothesis in hypotheses:
-            parts = [other.chi_square for keys, other in least.items() if keys < _keys(hypothesis.refit)]
+            parts = [other.chi_square for keys, other in least.items() if keys < hypothesis.refit.keys]
             if hypothesis.refit.chi_square <= min(parts, default=np.inf) + SEARCH.settled:
                 self.found.append(hypothesis)
             else:
@@ -527,7 +527,7 @@ class Search:
         rivals = [hypothesis for hypothesis in near if hypothesis.effects[0] not in leading.effects]
         base, values = leading.refit.model.split(leading.refit.parameters)
         rest = [(cause, own) for cause, own in values if cause.effect.name != first]
-        tried, jobs = {_keys(hypothesis.refit) for hypothesis in self.found}, []
+        tried, jobs = {hypothesis.refit.keys for hypothesis in self.found}, []
         for rival in _least_of_each(hypothesis.refit for hypothesis in rivals).values():
             together = [*rival.model.split(rival.parameters)[1], *rest]
             causes = [cause for cause, _ in together]
@@ -608,7 +608,7 @@ class Search:
                 if len(whole.model.causes) != count:
                     continue
                 part = min(
-                    (other for keys, other in least.items() if keys < _keys(whole)), key=lambda other: other.chi_square
+                    (other for keys, other in least.items() if keys < whole.keys), key=lambda other: other.chi_square
                 )
                 if whole.chi_square > part.chi_square + SEARCH.settled:
                     jobs.append((whole.model, _with_others_absent(whole, part)))
@@ -702,15 +702,11 @@ def _of_one_cause(refits: Iterable[Refit]) -> list[Refit]:
     return [fit for fit in refits if len(fit.model.causes) == 1]
 
 
-def _keys(fit: Refit) -> frozenset[Key]:
-    return frozenset(cause_key(cause) for cause in fit.model.causes)
-
-
 def _least_of_each(refits: Iterable[Refit]) -> dict[frozenset[Key], Refit]:
     """Of each set of causes the refit that leaves least."""
     least: dict[frozenset[Key], Refit] = {}
     for fit in refits:
-        keys = _keys(fit)
+        keys = fit.keys
         if keys not in least or fit.chi_square < least[keys].chi_square:
             least[keys] = fit
     return least

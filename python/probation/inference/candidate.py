@@ -179,13 +179,13 @@ def _ranked(columns: Sequence[Column | Onset], along: FloatArray, square: FloatA
     for column, slope, size in zip(columns, along.tolist(), square.tolist(), strict=True):
         amplitude = column.cause.form.amplitude
         wanted = -slope / max(size + amplitude.scale**-2.0, 1e-300)
-        wanted = float(np.clip(wanted, amplitude.lower, amplitude.upper))
+        wanted = min(max(wanted, amplitude.lower), amplitude.upper)
         gain = -(2.0 * wanted * slope + wanted**2 * size)
         if column.cause.form.threshold:
             start = column.values[0]
         else:
             largest = SEARCH.largest_start * amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
-            start = float(np.clip(wanted, -largest, largest))
+            start = min(max(wanted, -largest), largest)
         candidates.append(Candidate(column.cause, (start, *column.values[1:]), gain))
     return sorted(candidates, key=lambda candidate: -candidate.gain)
 

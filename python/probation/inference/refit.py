@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from probation.inference.candidate import cause_key
 from probation.inference.least_squares import FIRST_DAMPING, Bounds, Minimum, NormalPrior, minimise
 from probation.noise.span import span_of
 from probation.settings.search import SEARCH
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
+    from probation.inference.candidate import Key
     from probation.inference.model import CampaignModel
     from probation.inference.problem import Problem
 
@@ -42,20 +44,22 @@ class Refit:
         Whitened fit residual, model - data.
     jacobian : ndarray, shape (N, p)
         Whitened, along the search coordinates (see `Coordinates`).
-    coordinates : Coordinates
     """
 
     problem: Problem
     parameters: FloatArray
     residual: FloatArray
     jacobian: FloatArray
-    coordinates: Coordinates
 
     @classmethod
     def of(cls, problem: Problem, ended: Ended) -> Refit:
         """A problem, and where its refit ended."""
-        coordinates = Coordinates.of_model(problem.model)
-        return cls(problem, *ended, coordinates)
+        return cls(problem, *ended)
+
+    @cached_property
+    def coordinates(self) -> Coordinates:
+        """Of the search."""
+        return Coordinates.of_model(self.model)
 
     @property
     def ended(self) -> Ended:
@@ -66,6 +70,11 @@ class Refit:
     def model(self) -> CampaignModel:
         """Law, records and effects."""
         return self.problem.model
+
+    @cached_property
+    def keys(self) -> frozenset[Key]:
+        """Of its causes."""
+        return frozenset(cause_key(cause) for cause in self.model.causes)
 
     @property
     def chi_square(self) -> float:
@@ -181,7 +190,7 @@ def refit(
         If the law cannot be solved at the start.
     """
     coordinates, minimum = _minimum(problem, start, most_steps, settled, held)
-    return Refit(problem, coordinates.parameters(minimum.x), minimum.residual, minimum.jacobian, coordinates)
+    return Refit(problem, coordinates.parameters(minimum.x), minimum.residual, minimum.jacobian)
 
 
 def reached(

@@ -134,7 +134,8 @@ def engine_change(modification: Modification | None) -> _core.LawChange:
             raise InputError(
                 f"feedbacks holds {feedback!r}; a StressActivation, PowerActivation or SelfHeating is needed"
             )
-    change.feedbacks = list(modification.feedbacks)
+    if modification.feedbacks:
+        change.feedbacks = list(modification.feedbacks)
     return change
 
 
