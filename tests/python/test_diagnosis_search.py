@@ -322,17 +322,3 @@ def test_a_refit_with_another_noise_solves_nothing_again(monkeypatch):
     np.testing.assert_array_equal(again.residual, expected.residual)
     np.testing.assert_array_equal(again.jacobian, expected.jacobian)
     assert again.chi_square == pytest.approx(ended.chi_square / 4.0, rel=1e-9)
-
-
-def test_a_remembered_cause_changes_no_answer_of_a_model_with_two():
-    base = base_fit(records := campaign(4), plain_fit(records))
-    plain = base.model.with_causes([Cause(effect(name), effect(name).forms[0]) for name in ("damage", "strain_offset")])
-    model = RememberingModel(plain)
-    random = np.random.default_rng(2)
-    for size in random.uniform(0.02, 0.2, 3):
-        for late in random.uniform(-0.01, 0.01, 3):
-            values = [(size, *plain.causes[0].form.typical[1:]), (late, *plain.causes[1].form.typical[1:])]
-            at = plain.parameters(base.parameters, *values)
-            np.testing.assert_array_equal(model.residual(at), plain.residual(at))
-            for found, expected in zip(model.residual_and_jacobian(at), plain.residual_and_jacobian(at), strict=True):
-                np.testing.assert_array_equal(found, expected)

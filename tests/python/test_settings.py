@@ -85,7 +85,7 @@ NUMERICAL = {
     "inference/elastic_frame.py": {"MODES", "SAMPLES", "STEP", "MOVING"},
     "inference/model.py": {"_ONE_SIDED", "_PROBE", "_PARABOLA"},
     "inference/moving_noise.py": {"KEPT"},
-    "inference/remembering.py": {"KEPT", "MOST_OF_CAUSES"},
+    "inference/remembering.py": {"KEPT"},
     "inference/own_force.py": {
         *("MOST_NEWTON_STEPS", "MOST_DIRECTIONS", "PARTS", "SETTLED", "SLOPE", "ROUGHLY", "GOOD_ENOUGH"),
         *("ROUGHEST", "FINEST", "PATIENCE", "HOPELESS", "PROBE"),

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
+from scipy.interpolate import BSpline
 
 from probation.diagnosis.variables import every_phase, every_variable, least_below
 from probation.inference.model import CampaignModel
@@ -383,6 +384,4 @@ def _basis(values: FloatArray, samples: FloatArray, term: Term) -> FloatArray:
         return np.column_stack([np.ones(len(x)), x])
     inner = np.quantile((samples - low) / (high - low), np.linspace(0.0, 1.0, term.size - 2)[1:-1])
     knots = np.concatenate([np.zeros(4), np.clip(inner, 1e-6, 1.0 - 1e-6), np.ones(4)])
-    from scipy.interpolate import BSpline  # noqa: PLC0415 - slow to load
-
     return np.asarray(BSpline.design_matrix(np.clip(x, 0.0, 1.0), knots, 3).toarray())

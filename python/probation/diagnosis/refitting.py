@@ -141,15 +141,15 @@ class Refitting:
         With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap. With a
         strong gap, deviations of many standard deviations cost little, and the misfit counts only along what they do
         not explain. So specimens that are alike come first there. Where one of them is then far from what is usual,
-        that is the end; else a refit from the start is taken in which none deviates unusually, or one from where
-        specimens that are alike end, unless its next steps leave more. A search that explains less than no effect does
-        goes on: a fault in one record pulls the law of specimens that are alike.
+        that is the end; else the refit goes on from there, unless its next steps leave more, and a specimen still
+        deviates unusually. A search that explains
+        less than no effect does goes on, too: a fault in one record pulls the law of specimens that are alike.
         """
+        if not self.base.scatter.any:
+            return refit(self.base.problem.with_model(model), start, most_steps=steps)
         problem = self.base.problem.with_model(RememberingModel(model))
         if isinstance(start, Refit):
             start = replace(start, problem=problem)
-        if not self.base.scatter.any:
-            return refit(problem, start, most_steps=steps)
         try:
             return self._refit(problem, start, steps)
         except UNSOLVABLE:  # perhaps where it went on without derivatives; then it takes twice the time
@@ -171,28 +171,24 @@ class Refitting:
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
-        if not weak:
-            if self._furthest(there) <= SEARCH.farthest_specimen:
-                fit = refit(problem, start, most_steps=steps)
-                if self._furthest(fit) <= 1.0:
-                    return fit
-            elif there.chi_square <= self.base.refit.chi_square:
-                return there
+        explains = there.chi_square <= self.base.refit.chi_square
+        if not weak and explains and self._furthest(there) > SEARCH.farthest_specimen:
+            return there
         return self._from_alike(there, alike, steps, differentiable=differentiable)
 
     def _from_alike(self, there: Refit, alike: FloatArray, steps: int, *, differentiable: bool) -> Refit:
         """From where specimens that are alike ended; there itself, where specimens that differ would hold the gap."""
         problem, model, noises = there.problem, there.model, self.base.alike.noises
         begun = reached(problem, there, most_steps=min(steps, SEARCH.steps_apart), differentiable=differentiable)
-        if not specimens_hold_the_gap(model, noises, alike, begun.parameters):
-            if begun.steps < SEARCH.steps_apart:
-                return refit(problem, begun.parameters, most_steps=0)
-            fit = refit(problem, begun.parameters, most_steps=steps)
-            if not specimens_hold_the_gap(model, noises, alike, fit.parameters):
+        near = refit(problem, begun.parameters, most_steps=0)
+        held = specimens_hold_the_gap(model, noises, alike, near.parameters)
+        if not held or self._furthest(near) <= SEARCH.nearly_usual:
+            fit = near if begun.steps < SEARCH.steps_apart else refit(problem, near, most_steps=steps)
+            if self._furthest(fit) <= 1.0 or not specimens_hold_the_gap(model, noises, alike, fit.parameters):
                 return fit
         if there.chi_square <= self.base.refit.chi_square:
             return there
-        fit = refit(problem, begun.parameters, most_steps=steps)
+        fit = refit(problem, near, most_steps=steps)
         held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
         return there if held else fit
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
-    from probation.effects.effect import EffectParameter, ModificationHook, StrainHook
+    from probation.effects.effect import EffectParameter
     from probation.effects.record_view import RecordView
     from probation.inference.protocol import GapLaw
 
@@ -321,8 +321,8 @@ class CampaignModel:
 
     def _driven(self, view: RecordView, base: FloatArray, causes: CauseValues, sensitivity: bool) -> Specimen:
         """The same with the force that the view has."""
-        seen, conversion = self._seen(view, causes)
-        stress, slopes = self._solved(seen, base, self._modification(seen, causes), sensitivity)
+        seen, conversion = _seen(view, causes)
+        stress, slopes = self._solved(seen, base, _modification(seen, causes), sensitivity)
         if conversion is not None:
             factor = np.exp(conversion)
             stress = factor * stress
@@ -331,12 +331,12 @@ class CampaignModel:
 
     def _frame(self, view: RecordView, base: FloatArray, causes: CauseValues) -> ElasticFrame:
         """About how the specimen's stress answers, with what a change of the force does to its strain."""
-        seen, _ = self._seen(view, causes)
+        seen, _ = _seen(view, causes)
         assert view.quiet_stress is not None
         probe = _PROBE * max(float(np.max(np.abs(view.quiet_stress))), 1.0)
-        moved, _ = self._seen(view.quietened(view.quiet_stress + probe), causes)
+        moved, _ = _seen(view.quietened(view.quiet_stress + probe), causes)
         give = (moved.true_strain - seen.true_strain) / probe
-        change = self._modification(seen, causes)
+        change = _modification(seen, causes)
 
         def stress_at(step: FloatArray) -> FloatArray:
             return self.law.stress(seen.driven(seen.true_strain + step), base, change)
@@ -379,37 +379,6 @@ class CampaignModel:
         if cause.form.needs_solve:
             stress = self.specimen(view, base, here, settled=ROUGHLY, near=specimen.own_force).stress
         return _as_recorded(view, here, stress)
-
-    def _seen(self, view: RecordView, causes: CauseValues) -> tuple[RecordView, FloatArray | None]:
-        """The record as the specimen saw it, and the true strain by which its stress was converted too far (n,) [-]."""
-        seen, conversion = view, None
-        for cause, values in causes:
-            if cause.form.driving_strain is None:
-                continue
-            driven = self._strained(cause.form.driving_strain, seen, values)
-            if cause.form.converts:
-                conversion = (0.0 if conversion is None else conversion) + seen.true_strain - driven.true_strain
-            seen = driven
-        return seen, conversion
-
-    def _modification(self, seen: RecordView, causes: CauseValues) -> Modification | None:
-        """What the causes change in the law."""
-        modification = None
-        for cause, values in causes:
-            if cause.form.modification is None:
-                continue
-            change = self._changed(cause.form.modification, seen, values)
-            if change is not None:
-                modification = change if modification is None else modification.and_(change)
-        return modification
-
-    def _strained(self, hook: StrainHook, view: RecordView, values: tuple[float, ...]) -> RecordView:
-        """The record driven by the strain that one cause makes of it."""
-        return view.driven(hook(view, values))
-
-    def _changed(self, hook: ModificationHook, seen: RecordView, values: tuple[float, ...]) -> Modification | None:
-        """What one cause changes in the law."""
-        return hook(seen, values)
 
     def _solved(
         self, seen: RecordView, base: FloatArray, modification: Modification | None, sensitivity: bool
@@ -470,6 +439,28 @@ def _difference(
         return (at(value + step) - at(value - step)) / (2.0 * step)
     step = -step if ends else step
     return (at(value + step) - here) / step
+
+
+def _seen(view: RecordView, causes: CauseValues) -> tuple[RecordView, FloatArray | None]:
+    """The record as the specimen saw it, and the true strain by which its stress was converted too far (n,) [-]."""
+    seen, conversion = view, None
+    for cause, values in causes:
+        if cause.form.driving_strain is None:
+            continue
+        strain = cause.form.driving_strain(seen, values)
+        if cause.form.converts:
+            conversion = (0.0 if conversion is None else conversion) + seen.true_strain - strain
+        seen = seen.driven(strain)
+    return seen, conversion
+
+
+def _modification(seen: RecordView, causes: CauseValues) -> Modification | None:
+    """What the causes change in the law."""
+    modification = None
+    for cause, values in causes:
+        if cause.form.modification is not None and (change := cause.form.modification(seen, values)) is not None:
+            modification = change if modification is None else modification.and_(change)
+    return modification
 
 
 def _touching(causes: CauseValues, view: RecordView) -> CauseValues:

@@ -53,6 +53,12 @@ class SearchSettings:
         "Deviations of a specimen, over those that are usual, from which on a refit of a strong gap stays where "
         "specimens that are alike end.",
     )
+    nearly_usual: float = chosen(
+        1.5,
+        "of what is usual",
+        "Deviations of a specimen, over those that are usual, up to which a refit of a strong gap goes on after "
+        "`steps_apart` steps, whatever the deviations hold.",
+    )
     line_or_step_level: float = chosen(
         0.01,
         "-",
