@@ -107,6 +107,39 @@ def test_a_machine_that_lags_behind_one_jump_makes_no_second_one(lag):
         assert len(find_jumps(time, strain + 1e-5 * np.random.default_rng(seed).standard_normal(400), 1e-5)) == 1
 
 
+@pytest.mark.parametrize("lasting", [1e-3, 1.0, 2.0, 3.0])
+@pytest.mark.parametrize("begin", [346.0, 346.4, 346.8])
+def test_a_step_of_the_strain_has_a_jump_at_either_end(begin, lasting):
+    """By 5e-3 within one to four samples, as where a strip slips; the rate is the same before and after.
+
+    A corner between two samples is put at one of them: that looks like a little noise.
+    """
+    time = np.arange(440.0)
+    strain = 1.1e-3 * time + 5e-3 * np.clip((time - begin) / lasting, 0.0, 1.0)
+    for seed in range(5):
+        noisy = strain + 3e-5 * np.random.default_rng(seed).standard_normal(440)
+        first, last = find_jumps(time, noisy, 3e-5)
+        assert begin - 1.0 < first <= begin + 0.5
+        assert begin + lasting - 0.5 <= last < begin + lasting + 1.0
+        assert 2.5e-5 < excite(Record("slips", time, noisy, 20.0 + 0.0 * time)).strain_noise < 8e-5
+
+
+def test_a_pause_of_the_readings_is_no_step():
+    time = np.concatenate([np.arange(200.0), np.arange(212.0, 400.0)])
+    for seed in range(5):
+        assert not find_jumps(time, 1e-3 * time + 3e-5 * np.random.default_rng(seed).standard_normal(len(time)), 3e-5)
+
+
+@pytest.mark.parametrize("lag", [2.0, 5.0])
+def test_a_controller_that_overshoots_makes_no_second_jump(lag):
+    """The rate begins beyond the new one by half of the change, and comes back within a time constant."""
+    time = np.arange(400.0)
+    since = np.maximum(time - 200.0, 0.0)
+    strain = 1e-4 * time + 9e-4 * since - 4.5e-4 * lag * np.expm1(-since / lag)
+    for seed in range(10):
+        assert len(find_jumps(time, strain + 1e-5 * np.random.default_rng(seed).standard_normal(400), 1e-5)) == 1
+
+
 LAW = probation.Law(unrelaxed_modulus=2000.0, tau_max=30.0, hardening_modulus=1.0)
 
 

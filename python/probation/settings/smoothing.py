@@ -134,6 +134,11 @@ class SmoothingSettings:
     corner_places: int = chosen(
         4, "places", "From sample to sample, at which a sharp corner is tried before a lag is taken for it."
     )
+    longest_step: int = chosen(4, "samples", "Within which the strain takes a step: a sudden slip, averaged or not.")
+    step_significance: float = chosen(
+        8.0, "standard deviations", "By which the changes from sample to sample of a step stand out from those around."
+    )
+    step_over_others: float = chosen(3.0, "-", "The same over that of the changes next to the step.")
     lag_reach: float = chosen(
         3.0, "longest lag", "Samples from a start, over the longest lag's, within which a bend may be a lag."
     )

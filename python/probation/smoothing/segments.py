@@ -7,9 +7,10 @@ from itertools import combinations, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
+from scipy.ndimage import maximum_filter1d, median_filter
 
 from probation import _core
+from probation.normal import SD_OF_MEDIAN
 from probation.records.noise import noise_level
 from probation.settings.smoothing import SMOOTHING
 
@@ -39,7 +40,7 @@ def find_jumps(
     the corner between them must describe the samples better than a cubic by `jump_evidence`. It is put where it
     leaves least. Two that are closer than a window show as one (`_as_two`). Where the stress has a corner, the
     strain needs to confirm no more than that (`_with_stress`). What is a machine's lag behind its command is none
-    (`_without_lags`).
+    (`_without_lags`). Where the strain itself takes a step, both ends of that are jumps of its rate (`_steps`).
 
     Parameters
     ----------
@@ -56,6 +57,9 @@ def find_jumps(
     """
     if noise < SMOOTHING.clean:
         return _core.History.find_rate_jumps(time, true_strain)
+    if steps := _steps(time, true_strain, noise):
+        jumps = find_jumps(time, _without_steps(time, true_strain, steps), noise, true_stress)
+        return sorted({*jumps, *(end for step in steps for end in step if 0 < end < len(time) - 1)})
     seen = _jumps_in_noise(time, true_strain, noise)
     jumps = sorted(
         {
@@ -74,6 +78,39 @@ def find_jumps(
         jump if jump in corners else _begun(time, true_strain, noise, jump, (before, after))
         for before, jump, after in _between(_without_lags(time, true_strain, noise, jumps, corners), len(time))
     ]
+
+
+def _steps(time: FloatArray, values: FloatArray, noise: float) -> list[tuple[int, int]]:
+    """Between which samples noisy ones take a step, as where a strip or an extensometer slips: its ends.
+
+    A few changes from sample to sample stand out from those around, by more than these are themselves, by more than
+    those next to them do, and from the scatter of the record's.
+    """
+    usual = _usual_changes(time, values)
+    more = np.abs(np.diff(values) - usual)
+    scatter = max(np.sqrt(2.0) * noise, SD_OF_MEDIAN * float(np.median(more)))
+    out = np.concatenate([[False], more > SMOOTHING.step_significance * scatter, [False]])
+    steps = []
+    for first, last in np.flatnonzero(out[1:] != out[:-1]).reshape(-1, 2).tolist():
+        before, after = more[max(first - SMOOTHING.longest_step, 0) : first], more[last : last + SMOOTHING.longest_step]
+        others = SMOOTHING.step_over_others * max(before.max(initial=0.0), after.max(initial=0.0))
+        if last - first <= SMOOTHING.longest_step and more[first:last].max() > max(abs(usual[first]), others):
+            steps.append((first, last))
+    return steps
+
+
+def _without_steps(time: FloatArray, values: FloatArray, steps: Sequence[tuple[int, int]]) -> FloatArray:
+    """The same going on over each step as it does around it."""
+    changes, usual = np.diff(values), _usual_changes(time, values)
+    for first, last in steps:
+        changes[first:last] = usual[first:last]
+    return np.asarray(values[0] + np.concatenate([[0.0], np.cumsum(changes)]))
+
+
+def _usual_changes(time: FloatArray, values: FloatArray) -> FloatArray:
+    """Changes from sample to sample at the median of the rates around, among which those of a step are few."""
+    rates = np.diff(values) / np.diff(time)
+    return np.asarray(median_filter(rates, 4 * SMOOTHING.longest_step + 1, mode="nearest") * np.diff(time))
 
 
 def _jumps_in_noise(time: FloatArray, values: FloatArray, noise: float) -> list[int]:
