@@ -562,6 +562,19 @@ def test_slack_is_taken_up_before_the_specimen_is_strained():
     assert np.all(found[~taut] == 0.0)
 
 
+@pytest.mark.parametrize("first", [-2e-5, 0.0, 2e-5])
+@pytest.mark.parametrize("size", [1e-6, 1e-3])
+def test_slack_begins_with_the_first_reading_whatever_its_noise(first, size):
+    """The specimen stays there until it is taut: all that is strained further misses a, however small a is."""
+    record = ramp(end=0.1)
+    strain = record.true_strain.copy()
+    strain[0] = first
+    record = replace(record, true_strain=strain, sha256="")
+    [view] = views_of(probation.Campaign(name="slack", records=(record,)))
+    found = cause("strain_offset", form="slack").form.driving_strain(view, (size,))
+    np.testing.assert_allclose(found, np.where(strain - size > first, strain - size, first), rtol=0.0, atol=1e-15)
+
+
 def test_a_toe_is_taken_up_gradually_and_never_backwards():
     """The specimen sees e - a tanh(e / e_t), e_t no less than a: its strain never falls."""
     found, _, strain = faulty("strain_offset", "toe", (0.02, 0.1))
