@@ -100,7 +100,7 @@ def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
     That is not quite a constant true strain, which the catalogue's small slack may be taken for.
     """
     elongation = np.expm1(view.true_strain)
-    return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, elongation[0]))))
+    return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, 0.0))))
 
 
 def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:

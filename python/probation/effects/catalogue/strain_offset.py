@@ -45,9 +45,9 @@ LEAST_STRETCH = 0.1
 
 
 def _slack(view: RecordView, values: Values) -> FloatArray:
-    """Slack is taken up first: the specimen sees nothing until the recorded strain exceeds that of the start by a."""
-    strain = view.true_strain
-    return np.asarray(np.maximum(strain - values[0], np.minimum(strain, strain[0])))
+    """Slack is taken up first: the specimen sees nothing until the strain exceeds the first reading by a."""
+    strain, first = view.true_strain, view.recorded_strain[0]
+    return np.asarray(np.maximum(strain - values[0], np.minimum(strain, first)))
 
 
 def _toe(view: RecordView, values: Values) -> FloatArray:
