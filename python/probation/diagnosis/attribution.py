@@ -192,7 +192,7 @@ def _parts(
     base: BaseFit, best: Hypothesis, known: tuple[str, ...], hypotheses: Sequence[Hypothesis], threads: int
 ) -> dict[tuple[str, ...], Refit | None]:
     """Refits of law and effects for every part of the best explanation, smaller ones first; None if unsolvable."""
-    solved = {frozenset(cause_key(cause) for cause in hypothesis.causes): hypothesis.refit for hypothesis in hypotheses}
+    solved = {hypothesis.refit.keys: hypothesis.refit for hypothesis in hypotheses}
     parts = [part for size in range(1, len(known)) for part in combinations(known, size)]
 
     def begun(part: tuple[str, ...]) -> tuple[Problem, FloatArray | Refit]:

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.special import logsumexp, softmax
 
 from probation.inference.calibration_check import EXACT
-from probation.inference.candidate import Key, cause_key
+from probation.inference.candidate import Key
 from probation.inference.unknown import UNKNOWN
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
@@ -352,7 +352,7 @@ def _best_starts(hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:
     """Of starts with the same causes, forms and places the best one: most end in one optimum."""
     best: dict[frozenset[Key], Hypothesis] = {}
     for hypothesis in hypotheses:
-        key = frozenset(cause_key(cause) for cause in hypothesis.causes)
+        key = hypothesis.refit.keys
         if not np.isfinite(hypothesis.evidence.log_evidence):
             continue
         if key not in best or hypothesis.evidence.log_evidence > best[key].evidence.log_evidence:

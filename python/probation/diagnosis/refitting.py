@@ -141,9 +141,9 @@ class Refitting:
         With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap. With a
         strong gap, deviations of many standard deviations cost little, and the misfit counts only along what they do
         not explain. So specimens that are alike come first there. Where one of them is then far from what is usual,
-        that is the end; else the refit goes on from there, unless its next steps leave more, and a specimen still
-        deviates unusually. A search that explains
-        less than no effect does goes on, too: a fault in one record pulls the law of specimens that are alike.
+        that is the end; else the refit goes on from there, unless its next steps leave more and a specimen still
+        deviates unusually. A search that explains less than no effect does goes on, too: a fault in one record pulls
+        the law of specimens that are alike.
         """
         if not self.base.scatter.any:
             return refit(self.base.problem.with_model(model), start, most_steps=steps)

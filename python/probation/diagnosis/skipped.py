@@ -80,7 +80,7 @@ class Skipping:
         untried : dict of str to str, optional
             Effects that were not refitted to the end, though a form of theirs may have been solved, and why.
         """
-        solved = {frozenset(cause_key(cause) for cause in hypothesis.causes) for hypothesis in found}
+        solved = {hypothesis.refit.keys for hypothesis in found}
         reasons: dict[tuple[str, ...], dict[frozenset[Key], str]] = {}
         for keys, why in self._hypotheses:
             if keys not in solved:

@@ -198,7 +198,8 @@ def minimise(
         least = max(settled, tolerance**2 * float(residual @ residual) / max(len(residual) - len(x), 1))
         gradient = jacobian.T @ residual + prior.precision * (here.x - prior.centre)
         free = movable & ~bounds.pushed_out(here.x, gradient)
-        normal = (jacobian.T @ jacobian + np.diag(prior.precision))[np.ix_(free, free)]
+        along = jacobian[:, free]
+        normal = along.T @ along + np.diag(prior.precision[free])
         moved, promise, mildest = None, np.inf, damping
         while free.any() and damping < MOST_DAMPING:
             step = np.zeros(len(x))
@@ -246,7 +247,7 @@ def _moved(objective: Objective, x: FloatArray, prior: NormalPrior, cost: float,
         tangent = objective.tangent(x) if differentiable else None
     except UNSOLVABLE:
         return None
-    return None if tangent is not None and not np.isfinite(tangent[1].sum()) else _Point(x, lower, tangent)
+    return None if tangent is not None and not np.isfinite(tangent[1]).all() else _Point(x, lower, tangent)
 
 
 def _solved(normal: FloatArray, gradient: FloatArray, damping: float) -> FloatArray:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -36,21 +35,9 @@ class SmoothBasis:
 
 def waves(count: int, most: int, time: FloatArray | None = None) -> FloatArray:
     """Cosine waves, shape (count, min(most, count)): orthonormal (DCT-II) by sample, or of the same size in time."""
-    if time is None:
-        return _waves_by_sample(count, most)
-    return _cosines(0.5 + (count - 1) * (time - time[0]) / (time[-1] - time[0]), most)
-
-
-@lru_cache(maxsize=8)
-def _waves_by_sample(count: int, most: int) -> FloatArray:
-    """The same for every record of so many samples, read-only."""
-    columns = _cosines(np.arange(0.5, count), most)
-    columns.flags.writeable = False
-    return columns
-
-
-def _cosines(index: FloatArray, most: int) -> FloatArray:
-    count = len(index)
+    index = np.arange(count) + 0.5
+    if time is not None:
+        index = 0.5 + (count - 1) * (time - time[0]) / (time[-1] - time[0])
     columns = np.cos(np.pi / count * np.outer(index, np.arange(min(most, count)))) * np.sqrt(2.0 / count)
     columns[:, 0] *= np.sqrt(0.5)
     return np.asarray(columns, dtype=np.float64)

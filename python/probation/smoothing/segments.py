@@ -58,8 +58,15 @@ def find_jumps(
     if noise < SMOOTHING.clean:
         return _core.History.find_rate_jumps(time, true_strain)
     if steps := _steps(time, true_strain, noise):
-        jumps = find_jumps(time, _without_steps(time, true_strain, steps), noise, true_stress)
-        return sorted({*jumps, *(end for step in steps for end in step if 0 < end < len(time) - 1)})
+        true_strain = _without_steps(time, true_strain, steps)
+    ends = {end for step in steps for end in step if 0 < end < len(time) - 1}
+    return sorted(ends | set(_jumps_of_noisy_strain(time, true_strain, noise, true_stress)))
+
+
+def _jumps_of_noisy_strain(
+    time: FloatArray, true_strain: FloatArray, noise: float, true_stress: FloatArray | None
+) -> list[int]:
+    """The jumps of a noisy strain that takes no step; as in `find_jumps`."""
     seen = _jumps_in_noise(time, true_strain, noise)
     jumps = sorted(
         {
@@ -83,8 +90,8 @@ def find_jumps(
 def _steps(time: FloatArray, values: FloatArray, noise: float) -> list[tuple[int, int]]:
     """Between which samples noisy ones take a step, as where a strip or an extensometer slips: its ends.
 
-    A few changes from sample to sample stand out from those around, by more than these are themselves, by more than
-    those next to them do, and from the scatter of the record's.
+    A few changes from sample to sample stand out from those around: beyond the scatter of the record's, by more than
+    the usual change, and much further than those next to them.
     """
     usual = _usual_changes(time, values)
     more = np.abs(np.diff(values) - usual)
