@@ -17,6 +17,7 @@ from probation.inference import evidence as module
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.evidence import evidence
 from probation.inference.form_error import form_freedom
+from probation.inference.laplace import Linearised
 from probation.inference.refit import refit
 from probation.settings.evidence import EVIDENCE
 
@@ -191,6 +192,18 @@ def test_the_freedom_of_a_form_is_integrated_over_exactly():
         density = -0.5 * float(y @ np.linalg.solve(covariance, y)) - 0.5 * determinant
         scores.append(density + np.log(wide * np.sqrt(2.0 * np.pi)) + np.log(weight))
     assert judged.log_evidence == pytest.approx(logsumexp(scores), abs=5e-3)
+
+
+def test_several_integrals_at_once_are_each_by_itself():
+    views = problem.views([noisy(100.0 * STRAIN + 8.0 * np.sin(np.pi * STRAIN), seed) for seed in range(2)])
+    _, found, forms, discrepancy, _ = with_its_freedom(views, bump(scale=5.0))
+    linearised = Linearised.of(found, discrepancy, forms)
+    count, deviations = linearised.form_count, np.array([0.02, 0.3, 1.0])
+    variances = np.random.default_rng(1).exponential(5.0, (3, len(discrepancy)))
+    together = linearised.log_integrals(variances, count, deviations)
+    apart = [linearised.with_last(count, size).log_integral(own) for size, own in zip(deviations, variances, strict=True)]
+    assert count > 0
+    assert_allclose(together, apart, rtol=1e-12)
 
 
 def test_the_freedom_is_along_the_effects_own_coordinate_alike_in_all_records():

@@ -352,7 +352,8 @@ class Search:
             kept = {id(fit) for fit in least}
             behind += [fit for fit in begun if id(fit) not in kept]
             ahead += least
-        self.found += self._judged([*behind, *self._further(ahead)])
+        self.found += self._judged(behind, SEARCH.first_steps)
+        self.found += self._judged(self._further(ahead))
 
     def _extended(self, leading: Hypothesis, only: Cause | None) -> Extended:
         """A hypothesis to which an effect is to be added: any, or that of a cause."""
@@ -595,8 +596,8 @@ class Search:
                 self._ended.update(*(names for names in alone if len(names) == 1))
         return solved
 
-    def _not_above_their_parts(self, refits: list[Refit]) -> list[Refit]:
-        """Refits that leave more than a part of their causes does by itself, begun anew from there."""
+    def _not_above_their_parts(self, refits: list[Refit], steps: int = MOST_STEPS) -> list[Refit]:
+        """Refits that leave more than a part of their causes does by itself, begun anew from there: so many steps."""
         known = [*(hypothesis.refit for hypothesis in self.found), *refits]
         for count in sorted({len(fit.model.causes) for fit in refits}):
             if self.budget.spent():
@@ -614,7 +615,7 @@ class Search:
                     jobs.append((whole.model, _with_others_absent(whole, part)))
                     before.append(whole)
             # A single effect that leaves more than none has lost the race: none of it leaves as much as none.
-            lower = {id(fit.model): fit for fit in self._solved(jobs, MOST_STEPS if count > 1 else 0)}
+            lower = {id(fit.model): fit for fit in self._solved(jobs, steps if count > 1 else 0)}
             better = {
                 id(fit): lower[id(fit.model)]
                 for fit in before
@@ -624,9 +625,12 @@ class Search:
             known += better.values()
         return refits
 
-    def _judged(self, refits: Iterable[Refit]) -> list[Hypothesis]:
-        """Refits with their evidence; without those of which it cannot be worked out."""
-        final = self._not_above_their_parts(list(refits))
+    def _judged(self, refits: Iterable[Refit], steps: int = MOST_STEPS) -> list[Hypothesis]:
+        """Refits with their evidence; without those of which it cannot be worked out.
+
+        One that leaves more than a part of it is begun anew: so many steps, fewer where it is far behind as it stands.
+        """
+        final = self._not_above_their_parts(list(refits), steps)
         judged = []
         for fit, known in zip(final, self._evidences(final), strict=True):
             if isinstance(known, str):

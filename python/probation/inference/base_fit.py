@@ -35,7 +35,7 @@ from probation.noise.whitening import Whitened
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
@@ -307,19 +307,21 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
         ]
 
     residuals = residuals_of(model, raw, jacobian)
-    fit, noises, residuals = _settled(model, parameters, residuals, fitted_noises(residuals))
+    *_, (fit, noises, residuals) = _turns(model, parameters, residuals, fitted_noises(residuals))
     alike = Whitened.of(residuals, noises)
     columns = [] if specimens.alike else deviation_columns(model, fit.parameters)
     scatter = scatter_of(specimens, law, residuals, noises, columns)
     if scatter.any:
         plain, scattered = fit, with_scatter(residuals, columns, scatter)
         begun = fitted_noises(scattered)
-        fit, noises, residuals = _settled(model, plain.parameters, scattered, begun)
-        held = specimens_hold_the_gap(model, alike.noises, plain.parameters, fit.parameters)
-        if held and _moved_far(plain, fit, scattered, scatter):
-            noises = begun
-            fit = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
-            residuals = residuals_at(scattered, fit)
+        for turn in _turns(model, plain.parameters, scattered, begun):
+            fit, noises, residuals = turn
+            held = specimens_hold_the_gap(model, alike.noises, plain.parameters, fit.parameters)
+            if held and _moved_far(plain, fit, scattered, scatter):
+                noises = begun
+                fit = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
+                residuals = residuals_at(scattered, fit)
+                break
     parameters = fit.parameters
     # Effects that hand the force back to the strain must not be handed its noise.
     quiet = CampaignModel(law, views).quietened(parameters).views
@@ -385,13 +387,13 @@ def _white_specimens(noises: Sequence[NoiseModel], whitener: Whitener) -> list[F
     return [whitener.columns(columns) for columns in specimen_columns(noises, whitener.slices)]
 
 
-def _settled(
+def _turns(
     model: CampaignModel,
     parameters: FloatArray,
     residuals: Sequence[RecordResidual],
     noises: tuple[NoiseModel, ...],
-) -> tuple[Refit, tuple[NoiseModel, ...], list[RecordResidual]]:
-    """Parameters and noise in turns: the refit, the noise it was made with, and the residuals there.
+) -> Iterator[tuple[Refit, tuple[NoiseModel, ...], list[RecordResidual]]]:
+    """Parameters and noise in turns, until they settle: the refit, the noise it was made with, and the residuals there.
 
     They begin with parameters, and the residuals and their noise there.
     """
@@ -401,9 +403,9 @@ def _settled(
         moved = np.abs(fit.parameters - parameters) / np.maximum(np.abs(parameters), 1e-300)
         parameters = fit.parameters
         residuals = residuals_at(residuals, fit)
+        yield fit, noises, residuals
         if moved.size == 0 or float(moved.max()) < SETTLED:
             break
-    return fit, noises, list(residuals)
 
 
 def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:

@@ -95,27 +95,26 @@ def evidence(
     variance = forms.variance if forms else max((form_size(cause) ** 2 for cause in found.model.causes), default=1.0)
     done = variance * discrepancy.energy(found.residual - base.residual)
     errors, weights = (EVIDENCE.form_errors, EVIDENCE.form_error_weights) if done.any() else ((0.0,), (1.0,))
+    size, wrong = np.array(errors), np.array(errors) > 0.0
 
-    def with_error(error: float) -> tuple[Linearised, FloatArray]:
-        """The problem and the discrepancy's variances where the form is wrong by so much."""
-        variances = discrepancy.variances((EVIDENCE.form_rest * error) ** 2 * done)
-        return (free.with_form_error(error) if error > 0.0 else plain), variances
+    def variances_at(error: float) -> FloatArray:
+        """Of the discrepancy where the form is wrong by so much."""
+        return discrepancy.variances((EVIDENCE.form_rest * error) ** 2 * done)
 
-    exact = plain.log_integral(discrepancy.variances(0.0 * done))
-    scores = []
-    for error, weight in zip(errors, weights, strict=True):
-        problem, variances = with_error(error)
-        scores.append((problem.log_integral(variances) if error > 0.0 else exact) + float(np.log(weight)))
+    exact = plain.log_integral(variances_at(0.0))
+    scores = np.full(len(errors), exact)
+    if wrong.any():
+        variances = np.array([variances_at(error) for error in size[wrong]])
+        scores[wrong] = free.log_integrals(variances, free.form_count, size[wrong])
+    scores += np.log(weights)
     together = float(logsumexp(scores))
-    posterior = np.exp(np.array(scores) - together)
-    form_error = float(posterior @ np.array(errors))
+    form_error = float(np.exp(scores - together) @ size)
     # A freedom of nearly no size would leave no digits in the covariance's inverse.
-    size = form_error if form_error >= EVIDENCE.negligible_form_error else 0.0
-    problem, variances = with_error(size)
-    covariance = problem.covariance(variances)
-    with_unknown = (
-        log_evidence_of_unknown(problem, found, discrepancy, None if columns is None or size == 0.0 else size * columns)
-        if unknown
-        else -np.inf
-    )
+    allowed = form_error if form_error >= EVIDENCE.negligible_form_error else 0.0
+    problem = free.with_last(free.form_count, allowed) if allowed > 0.0 else plain
+    covariance = problem.covariance(variances_at(allowed))
+    with_unknown = -np.inf
+    if unknown:
+        ways = None if columns is None or allowed == 0.0 else allowed * columns
+        with_unknown = log_evidence_of_unknown(problem, found, discrepancy, ways)
     return Evidence(together, form_error, with_unknown, covariance, exact)

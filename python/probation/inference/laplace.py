@@ -84,44 +84,57 @@ class Linearised:
             above=np.append(above[free], np.full(count, np.inf)),
         )
 
-    def with_form_error(self, error: float) -> Linearised:
-        """The same with amplitudes of the forms' columns of another standard deviation than 1."""
-        count = self.form_count
+    def with_last(self, count: int, deviation: float) -> Linearised:
+        """The same, the last amplitudes, so many, of another standard deviation than 1."""
         if count == 0:
             return self
         precision = self.precision.copy()
-        precision[-count:] = error**-2.0
-        return replace(self, precision=precision, log_prior=self.log_prior - count * float(np.log(error)))
+        precision[-count:] = deviation**-2.0
+        return replace(self, precision=precision, log_prior=self.log_prior - count * float(np.log(deviation)))
 
     def log_integral(self, variances: FloatArray) -> float:
         """Log of the integral over the parameters of likelihood times prior, C = I + B (D + drift) B^T."""
+        return float(self.log_integrals(variances[None, :])[0])
+
+    def log_integrals(self, variances: FloatArray, count: int = 0, deviations: FloatArray | float = 1.0) -> FloatArray:
+        """The same of several problems at once, shape (m,): the variances D of each stand in a row, shape (m, d).
+
+        In each the last amplitudes, `count` of them, have a standard deviation of their own, shape (m,).
+        """
         both, square_of_both = self._waves
-        covariance = self.drift.copy()
-        covariance[np.diag_indices_from(covariance)] += 1.0 + variances
-        lower = cholesky(covariance, lower=True, overwrite_a=True, check_finite=False)
-        left = solve_triangular(lower, both, lower=True, check_finite=False)
-        taken = square_of_both - left.T @ left
-        gradient = self.gradient - taken[:-1, -1]
-        square = self.square - float(taken[-1, -1])
-        total = self.normal - taken[:-1, :-1]
-        total[np.diag_indices_from(total)] += self.precision
-        pull = gradient + self.precision * self.away
-        size = np.sqrt(np.maximum(np.diag(total), 1e-300))
-        values, vectors = np.linalg.eigh(total / np.outer(size, size))
+        taken, log_root = np.empty((len(variances), *square_of_both.shape)), np.empty(len(variances))
+        for index, own in enumerate(variances):
+            covariance = self.drift.copy()
+            covariance[np.diag_indices_from(covariance)] += 1.0 + own
+            lower = cholesky(covariance, lower=True, overwrite_a=True, check_finite=False)
+            left = solve_triangular(lower, both, lower=True, check_finite=False)
+            taken[index] = square_of_both - left.T @ left
+            log_root[index] = np.sum(np.log(np.diag(lower)))
+        precision = np.repeat(self.precision[None, :], len(variances), axis=0)
+        precision[:, len(self.precision) - count :] = np.asarray(deviations**-2.0)[..., None]
+        gradient = self.gradient - taken[:, :-1, -1]
+        square = self.square - taken[:, -1, -1]
+        diagonal = np.arange(precision.shape[1])
+        total = self.normal - taken[:, :-1, :-1]
+        total[:, diagonal, diagonal] += precision
+        pull = gradient + precision * self.away
+        size = np.sqrt(np.maximum(total[:, diagonal, diagonal], 1e-300))
+        values, vectors = np.linalg.eigh(total / (size[:, :, None] * size[:, None, :]))
         # A direction that neither data nor priors know is left where it is: its slope is rounding.
-        turned = np.where(values > UNDETERMINED, vectors.T @ (pull / size), 0.0)
+        turned = np.where(values > UNDETERMINED, np.einsum("mij,mi->mj", vectors, pull / size), 0.0)
         values = np.maximum(values, UNDETERMINED)
-        step = (vectors @ (turned / values)) / size
-        quadratic = square + float(self.precision @ self.away**2) - float(turned @ (turned / values))
-        deviation = np.sqrt(np.einsum("ij,j->i", vectors**2, 1.0 / values)) / size
-        cut = float(np.sum(_log_inside(-(self.below + step) / deviation, (self.above - step) / deviation)))
-        log_determinant = float(np.sum(np.log(values)) + 2.0 * np.sum(np.log(size)))
-        return (
+        step = np.einsum("mij,mj->mi", vectors, turned / values) / size
+        quadratic = square + precision @ self.away**2 - np.sum(turned**2 / values, axis=1)
+        deviation = np.sqrt(np.einsum("mij,mj->mi", vectors**2, 1.0 / values)) / size
+        cut = np.sum(_log_inside(-(self.below + step) / deviation, (self.above - step) / deviation), axis=1)
+        log_determinant = np.sum(np.log(values), axis=1) + 2.0 * np.sum(np.log(size), axis=1)
+        return np.asarray(
             -0.5 * quadratic
-            - float(np.sum(np.log(np.diag(lower))))
+            - log_root
             - 0.5 * log_determinant
-            + 0.5 * len(values) * float(np.log(2.0 * np.pi))
+            + 0.5 * values.shape[1] * np.log(2.0 * np.pi)
             + self.log_prior
+            - count * np.log(deviations)
             + self.bound_factor
             + cut
         )

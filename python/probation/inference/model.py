@@ -282,7 +282,12 @@ class CampaignModel:
         """What one of the causes adds to the recorded stress, all others staying; shape (n_samples,) [MPa]."""
         absent = parameters.copy()
         absent[self.amplitudes[self.causes.index(cause)]] = 0.0
-        return self.residual(parameters) - self.residual(absent)
+        (base, causes), (_, others) = self.split(parameters), self.split(absent)
+        added = np.zeros(len(self.data))
+        for view, rows in self.parts:
+            if cause.touches(view.id):
+                added[rows] = view.sampled(self.recorded(view, base, causes) - self.recorded(view, base, others))
+        return added
 
     def specimen(
         self,

@@ -80,7 +80,7 @@ def _around_the_optimum(problem: Linearised) -> Linearised:
 
 def _integrated(problem: Linearised, discrepancy: Discrepancy, pattern: FloatArray) -> float:
     """Mean over the sizes of a discrepancy of such a pattern over the records."""
-    scores = [problem.log_integral(discrepancy.variances(size * pattern)) for size in SIZES]
+    scores = problem.log_integrals(np.array([discrepancy.variances(size * pattern) for size in SIZES]))
     return float(logsumexp(scores)) - float(np.log(len(SIZES)))
 
 
@@ -93,13 +93,8 @@ def _along(fit: Refit, discrepancy: Discrepancy, forms: FloatArray | None, colum
     columns = without(columns, span_of(fit.jacobian[:, : fit.model.base_count]))
     together = columns if forms is None else np.hstack([forms, columns])
     jointly = _around_the_optimum(Linearised.of(fit, discrepancy, together))
-    nothing = np.zeros(len(jointly.waves_of_residual))
-    scores = []
-    for size in SIZES:
-        precision = jointly.precision.copy()
-        precision[-count:] = 1.0 / size
-        sized = replace(jointly, precision=precision, log_prior=jointly.log_prior - 0.5 * count * float(np.log(size)))
-        scores.append(sized.log_integral(nothing))
+    nothing = np.zeros((len(SIZES), len(jointly.waves_of_residual)))
+    scores = jointly.log_integrals(nothing, count, np.sqrt(SIZES))
     return float(logsumexp(scores)) - float(np.log(len(SIZES)))
 
 
@@ -111,12 +106,11 @@ def _in_each(problem: Linearised, discrepancy: Discrepancy, start: FloatArray) -
         before = score
         for index in range(len(best)):
             near = SIZES[np.argsort(np.abs(np.log(SIZES / max(best[index], 1.0))))[:3]]
-            for size in (0.0, *near):
-                tried = best.copy()
-                tried[index] = size
-                value = problem.log_integral(discrepancy.variances(tried))
-                if value > score:
-                    best, score = tried, value
+            tried = np.repeat(best[None, :], 1 + len(near), axis=0)
+            tried[:, index] = 0.0, *near
+            values = problem.log_integrals(np.array([discrepancy.variances(each) for each in tried]))
+            if values.max() > score:
+                best, score = tried[values.argmax()], float(values.max())
         if score - before < EVIDENCE.unknown_settled:
             break
     # A peak in the logarithm of a size is about two of the grid's steps wide.

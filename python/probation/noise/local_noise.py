@@ -18,7 +18,8 @@ MEMORY = 35.0 / 18.0
 
 def samples_within(directions: FloatArray) -> FloatArray:
     """Number of independent samples under each of the unit signals (N, m), for its noise variance; shape (m,)."""
-    return np.asarray(1.0 / (MEMORY * np.maximum(np.sum(directions**4, axis=0), 1e-300)), dtype=np.float64)
+    square = directions**2
+    return np.asarray(1.0 / (MEMORY * np.maximum(np.sum(square * square, axis=0), 1e-300)), dtype=np.float64)
 
 
 def local_noise_sd(directions: FloatArray, residual: FloatArray, slices: Sequence[slice]) -> FloatArray:

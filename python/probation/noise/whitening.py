@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -157,8 +158,10 @@ class Reduced:
     ) -> FloatArray:
         """Draws of features^T z under "no gap", shape (size, m), for reduced *and projected* features."""
         scales = self.whitened.scales(rng, size)
-        widths = [frame.shape[1] for frame in self.frames]
-        noise = rng.standard_normal((size, sum(widths))) * np.repeat(scales, widths, axis=1)
+        borders = np.cumsum([0, *(frame.shape[1] for frame in self.frames)])
+        noise = rng.standard_normal((size, borders[-1]))
+        for own, (first, stop) in zip(scales.T, pairwise(borders), strict=True):
+            noise[:, first:stop] *= own[:, None]
         if scatter is not None:
             noise = scatter.spread(noise, rng, self.of)
         return np.asarray(noise @ features, dtype=np.float64)
