@@ -201,7 +201,9 @@ def test_several_integrals_at_once_are_each_by_itself():
     count, deviations = linearised.form_count, np.array([0.02, 0.3, 1.0])
     variances = np.random.default_rng(1).exponential(5.0, (3, len(discrepancy)))
     together = linearised.log_integrals(variances, count, deviations)
-    apart = [linearised.with_last(count, size).log_integral(own) for size, own in zip(deviations, variances, strict=True)]
+    apart = [
+        linearised.with_last(count, size).log_integral(own) for size, own in zip(deviations, variances, strict=True)
+    ]
     assert count > 0
     assert_allclose(together, apart, rtol=1e-12)
 
