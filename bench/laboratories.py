@@ -2,7 +2,8 @@
 
 `python -m bench.laboratories SCORE.json|FOLDER…`: one row for each, and of several folders, answered, whose truths are
 opened, one of all their campaigns together; `--by-strain-noise`, `--by-strength`: one row for each class of strain
-noise, or of √λ of what acts, that is there.
+noise, or of √λ of what acts, that is there; `--said`: of declared gaps, with how much what leads is said and how often
+it is right, of folders alone.
 Intervals are of 95 %: exact ones of rates and medians, Student's of the mean P of the truth, bootstrapped ones of the
 answer sets' size; older scores hold neither these nor alarms where replicates show how far specimens differ. After the
 calibration error stands what a calibrated solver with the same probabilities stays below in 95 % of repeats.
@@ -19,6 +20,7 @@ from bench.one_line import one_line
 from probation._files import read_json
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.scores.board import board
+from probation_studies.blind.scores.intervals import Rate
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -37,6 +39,8 @@ CLASSES = {"by_strain_noise": "strain noise", "by_strength": "√λ"}
 BY_CLASS = (
     "laboratory", "seeds", "false alarms", "single, resolvable: named", "95 % sets that hold the gap's truth",
 )  # fmt: skip
+
+SAID = ("laboratory", "seeds", "declared gaps", "said", "right")
 
 
 def row(content: dict) -> list[str]:
@@ -80,6 +84,15 @@ def rows_by(key: str, content: dict) -> list[list[str]]:
     ]
 
 
+def said(path: Path, cases: Sequence[Case]) -> list[str]:
+    """Of declared gaps of a folder: the mean probability of what leads, and how often that is right."""
+    declared = [case for case in cases if case.answer.gap and case.stratum != "none"]
+    leading = [case.answer.probability[case.answer.top] for case in declared]
+    right = Rate.of(case.right for case in declared).plain()
+    seeds = ", ".join(str(seed) for seed in sorted({case.truth["seed"] for case in cases}))
+    return [path.name, seeds, str(len(declared)), number(sum(leading) / max(len(leading), 1)), rate(right)]
+
+
 def source(content: dict) -> tuple[str, str]:
     """Laboratory and seeds."""
     return str(content.get("laboratory", "own")), ", ".join(str(seed) for seed in content["seeds"])
@@ -119,9 +132,14 @@ def scored(laboratory: object, cases: Sequence[Case]) -> dict:
     return {"laboratory": laboratory, "campaigns": len(cases), "seeds": seeds, "scores": {"answers": board(cases)}}
 
 
+def cases_of(paths: Sequence[Path]) -> dict[Path, list[Case]]:
+    """Answered campaigns of those that are folders."""
+    return {path: [case for case, _ in answered(Layout(path))] for path in paths if path.is_dir()}
+
+
 def contents_of(paths: Sequence[Path]) -> list[dict]:
     """Of scores and of folders; of several folders all together come last."""
-    folders = {path: [case for case, _ in answered(Layout(path))] for path in paths if path.is_dir()}
+    folders = cases_of(paths)
     contents = [
         scored(Layout(path).published()[0].get("laboratory", "own"), folders[path])
         if path in folders
@@ -143,10 +161,15 @@ def main() -> None:
             const=key,
             help=f"one row for each class of {name}",
         )
+    parser.add_argument("--said", action="store_true", help="how sure and how right what leads is, of folders")
     chosen = parser.parse_args()
     with one_line(parser):
-        contents = contents_of(chosen.scores)
-    if chosen.key:
+        folders = cases_of(chosen.scores) if chosen.said else {}
+        contents = [] if chosen.said else contents_of(chosen.scores)
+    if chosen.said:
+        together = [case for cases in folders.values() for case in cases]
+        head, rows = SAID, [said(path, cases) for path, cases in [*folders.items(), (Path("all"), together)]]
+    elif chosen.key:
         head, rows = head_by(chosen.key), [each for content in contents for each in rows_by(chosen.key, content)]
     else:
         head, rows = HEAD, [row(content) for content in contents]
