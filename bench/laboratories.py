@@ -40,7 +40,7 @@ BY_CLASS = (
     "laboratory", "seeds", "false alarms", "single, resolvable: named", "95 % sets that hold the gap's truth",
 )  # fmt: skip
 
-SAID = ("laboratory", "seeds", "declared gaps", "said", "right")
+SAID = ("folder", "seeds", "declared gaps", "said", "right")
 
 
 def row(content: dict) -> list[str]:
@@ -90,7 +90,8 @@ def said(path: Path, cases: Sequence[Case]) -> list[str]:
     leading = [case.answer.probability[case.answer.top] for case in declared]
     right = Rate.of(case.right for case in declared).plain()
     seeds = ", ".join(str(seed) for seed in sorted({case.truth["seed"] for case in cases}))
-    return [path.name, seeds, str(len(declared)), number(sum(leading) / max(len(leading), 1)), rate(right)]
+    mean = sum(leading) / len(leading) if leading else None
+    return [path.name, seeds, str(len(declared)), number(mean), rate(right)]
 
 
 def source(content: dict) -> tuple[str, str]:
@@ -163,12 +164,15 @@ def main() -> None:
         )
     parser.add_argument("--said", action="store_true", help="how sure and how right what leads is, of folders")
     chosen = parser.parse_args()
+    if chosen.said and (chosen.key or not all(path.is_dir() for path in chosen.scores)):
+        parser.error("--said: expected sealed folders, and no other option")
     with one_line(parser):
         folders = cases_of(chosen.scores) if chosen.said else {}
         contents = [] if chosen.said else contents_of(chosen.scores)
     if chosen.said:
         together = [case for cases in folders.values() for case in cases]
-        head, rows = SAID, [said(path, cases) for path, cases in [*folders.items(), (Path("all"), together)]]
+        more = [(Path("all"), together)] if len(folders) > 1 else []
+        head, rows = SAID, [said(path, cases) for path, cases in [*folders.items(), *more]]
     elif chosen.key:
         head, rows = head_by(chosen.key), [each for content in contents for each in rows_by(chosen.key, content)]
     else:

@@ -330,28 +330,6 @@ def test_a_user_registers_an_effect_of_their_own():
     assert "grip_friction" not in {effect.name for effect in effects()}
 
 
-@pytest.mark.parametrize(("kind", "asked"), [("material", ["slow", "fast"]), ("rig", ["slow", "fast", "jump"])])
-def test_what_one_record_cannot_be_solved_with_is_asked_of_the_others_only_where_it_may_act_alone(kind, asked):
-    seen = []
-
-    def drive(view, values):
-        if not seen or seen[-1] != view.id:
-            seen.append(view.id)
-        if view.id == "fast":
-            raise probation.ConvergenceError("no answer")
-        return view.true_strain * (1.0 + values[0])
-
-    stretched = Effect(
-        "stretched", "stretched", "Too long.", "workshop", "all", kind,
-        (Form("whole", (EffectParameter("part", "-", -0.5, 0.5, 0.1, "some"),), driving_strain=drive),),
-    )  # fmt: skip
-    failed = []
-    columns = screen(model(), model().start, [stretched], unsolved=lambda cause, _: failed.append(cause.records))
-    assert seen == asked
-    assert [column.cause.records for column in columns] == ([] if kind == "material" else [("slow",), ("jump",)])
-    assert failed == ([None] if kind == "material" else [None, ("fast",)])
-
-
 def test_the_catalogue_is_listed_with_parameters_units_and_bounds():
     listed = json.loads(json.dumps(probation.answers.plain(catalogue_json())))
     assert [entry["name"] for entry in listed] == [effect.name for effect in effects()]

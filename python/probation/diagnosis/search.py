@@ -628,7 +628,7 @@ class Search:
     def _judged(self, refits: Iterable[Refit], steps: int = MOST_STEPS) -> list[Hypothesis]:
         """Refits with their evidence; without those of which it cannot be worked out.
 
-        One that leaves more than a part of it is begun anew: so many steps, fewer where it is far behind as it stands.
+        `steps` are those of one that is begun anew, since it leaves more than a part of its causes does.
         """
         final = self._not_above_their_parts(list(refits), steps)
         judged = []

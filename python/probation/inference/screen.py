@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -148,14 +148,11 @@ class _Screen:
     wanted : list of (Cause, tuple of float, tuple of RecordView)
         Causes, where they begin, and the records that they act in.
     failed : list of (Cause, Exception)
-    lost : dict of key to Exception
-        Of what is wanted of all records together and cannot be had of one: it is not asked of the others.
     """
 
     asked: Asked
     wanted: list[tuple[Cause, tuple[float, ...], tuple[RecordView, ...]]]
     failed: list[tuple[Cause, Exception]]
-    lost: dict[_Key, Exception] = field(default_factory=dict)
 
     @classmethod
     def of(cls, asked: Asked) -> _Screen:
@@ -186,13 +183,9 @@ class _Screen:
         specimen, still = model.at_rest(view, base, active)
         slopes: dict[_Key, FloatArray] = {}
         errors: dict[_Key, FloatArray | Exception] = {}
-        alone = {_key(cause, values) for cause, values, views in self.wanted if len(views) == 1}
         for cause, values, views in self.wanted:
             key = _key(cause, values)
             if view not in views or key in slopes or key in errors:
-                continue
-            if key in self.lost:
-                errors[key] = self.lost[key]
                 continue
             form = cause.form
             size = values[0] if form.threshold else form.amplitude.step(0.0)
@@ -201,8 +194,6 @@ class _Screen:
                 slopes[key] = view.sampled((stress - still) / size)
             except UNSOLVABLE as error:
                 errors[key] = error
-                if key not in alone:
-                    self.lost[key] = error
         if not slopes:
             return errors
         noted = self.asked.noted(index, np.column_stack(list(slopes.values())))

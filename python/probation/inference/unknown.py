@@ -109,6 +109,7 @@ def _in_each(problem: Linearised, discrepancy: Discrepancy, start: FloatArray) -
             tried = np.repeat(best[None, :], 1 + len(near), axis=0)
             tried[:, index] = 0.0, *near
             values = problem.log_integrals(np.array([discrepancy.variances(each) for each in tried]))
+            values = np.nan_to_num(values, nan=-np.inf)
             if values.max() > score:
                 best, score = tried[values.argmax()], float(values.max())
         if score - before < EVIDENCE.unknown_settled:
