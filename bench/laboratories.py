@@ -89,9 +89,8 @@ def said(path: Path, cases: Sequence[Case]) -> list[str]:
     declared = [case for case in cases if case.answer.gap and case.stratum != "none"]
     leading = [case.answer.probability[case.answer.top] for case in declared]
     right = Rate.of(case.right for case in declared).plain()
-    seeds = ", ".join(str(seed) for seed in sorted({case.truth["seed"] for case in cases}))
     mean = sum(leading) / len(leading) if leading else None
-    return [path.name, seeds, str(len(declared)), number(mean), rate(right)]
+    return [path.name, ", ".join(map(str, seeds_of(cases))), str(len(declared)), number(mean), rate(right)]
 
 
 def source(content: dict) -> tuple[str, str]:
@@ -127,9 +126,14 @@ def calibration_error(curve: dict) -> str:
     return f"{number(curve['ece'], 3)}; below {number(curve['ece_limit95'], 3)} if calibrated"
 
 
+def seeds_of(cases: Sequence[Case]) -> list[int]:
+    """Of campaigns, each once."""
+    return sorted({case.truth["seed"] for case in cases})
+
+
 def scored(laboratory: object, cases: Sequence[Case]) -> dict:
     """What rows are made of, as a score holds it."""
-    seeds = sorted({case.truth["seed"] for case in cases})
+    seeds = seeds_of(cases)
     return {"laboratory": laboratory, "campaigns": len(cases), "seeds": seeds, "scores": {"answers": board(cases)}}
 
 
@@ -164,8 +168,10 @@ def main() -> None:
         )
     parser.add_argument("--said", action="store_true", help="how sure and how right what leads is, of folders")
     chosen = parser.parse_args()
-    if chosen.said and (chosen.key or not all(path.is_dir() for path in chosen.scores)):
-        parser.error("--said: expected sealed folders, and no other option")
+    if chosen.said and chosen.key:
+        parser.error(f"--said: found --{chosen.key.replace('_', '-')}, too; expected one of the two")
+    if chosen.said and (others := [str(path) for path in chosen.scores if not path.is_dir()]):
+        parser.error(f"--said: found {', '.join(others)}, expected sealed folders")
     with one_line(parser):
         folders = cases_of(chosen.scores) if chosen.said else {}
         contents = [] if chosen.said else contents_of(chosen.scores)

@@ -314,6 +314,7 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
     if scatter.any:
         plain, scattered = fit, with_scatter(residuals, columns, scatter)
         begun = fitted_noises(scattered)
+        # Specimens that hold the gap after one turn hold it after all that follow.
         for turn in _turns(model, plain.parameters, scattered, begun):
             fit, noises, residuals = turn
             held = specimens_hold_the_gap(model, alike.noises, plain.parameters, fit.parameters)
