@@ -12,6 +12,7 @@ from threading import Thread
 from typing import TypeAlias, TypeVar
 
 from probation.errors import InputError
+from probation.processors import processors
 
 Progress: TypeAlias = "Callable[[int, int, str], None]"
 Key = TypeVar("Key", bound=Hashable)
@@ -70,7 +71,7 @@ def run_all(
     """
     if processes is not None and processes < 1:
         raise InputError(f"processes: found {processes}, expected at least 1")
-    count = processes or _processors()
+    count = processes or processors()
     done = 0
 
     def finish(key: Key, result: Result) -> None:
@@ -163,8 +164,3 @@ def _interrupts_held() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _processors() -> int:
-    """Those that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

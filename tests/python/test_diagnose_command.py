@@ -9,6 +9,7 @@ import pytest
 from campaigns import made_up_diagnosis as made_up
 from probation import cli
 from probation.effects.registry import effects
+from probation.processors import processors
 from probation.published.experiments import twin_campaign
 
 
@@ -47,7 +48,11 @@ def test_every_option_reaches_the_diagnosis(folder, asked, capsys):
 def test_all_effects_are_considered_unless_some_are_named(folder, asked):
     assert cli.main(["diagnose", folder]) == 0
     assert asked["effects"] is None
-    assert asked["threads"] is None
+
+
+def test_a_diagnosis_takes_every_processor_that_it_may_use_up_to_four(folder, asked):
+    assert cli.main(["diagnose", folder]) == 0
+    assert asked["threads"] == min(processors(), 4)
 
 
 def test_json_stands_alone_on_standard_output_and_the_summary_beside_it(folder, asked, capsys):

@@ -18,7 +18,7 @@ from probation.effects.cause import Cause
 from probation.effects.registry import effect, effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
-from probation.inference.candidate import Extended, WhitenedColumns, cause_key, screened
+from probation.inference.candidate import Extended, WhitenedColumns, cause_key
 from probation.inference.refit import MOST_STEPS, refit
 from probation.inference.remembering import RememberingModel
 from probation.inference.screen import screen
@@ -123,7 +123,7 @@ def test_nothing_less_beats_what_leads_in_the_end(made, monkeypatch):
             smaller = model.with_causes(cause for cause, _ in part)
             jobs.append((smaller, smaller.parameters(base, *(own for _, own in part))))
     before = causes.base.refit
-    for each in _first_of_each(causes.base.candidates(causes.considered)):
+    for each in _first_of_each(search.candidates()):
         jobs.append((causes.base.model.with_causes([each.cause]), np.concatenate([before.parameters, each.values])))
     judged = []
     for smaller, start in jobs:
@@ -218,13 +218,13 @@ def test_a_linearised_gain_that_no_refit_reaches_keeps_no_effect_out(monkeypatch
     """An offset of the force looks millions of log units better than it turns out to be."""
     chosen, made = effects(CONSIDERED), campaign(2)
     base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
-    candidates = type(base).candidates
+    candidates = Search.candidates
 
-    def boasting(self, *given, **options):
-        for each in candidates(self, *given, **options):
+    def boasting(self):
+        for each in candidates(self):
             yield replace(each, gain=1e8) if each.cause.effect.name == "force_offset" else each
 
-    monkeypatch.setattr(type(base), "candidates", lambda *given, **options: list(boasting(*given, **options)))
+    monkeypatch.setattr(Search, "candidates", lambda search: list(boasting(search)))
     with Search(base, chosen) as search:
         search._singles()
         assert ("damage",) not in {hypothesis.effects for hypothesis in search.found}
@@ -272,7 +272,7 @@ def test_variants_of_a_form_are_for_the_search_and_not_for_the_test_for_a_gap():
     variants = {form.name for each in chosen for form in each.forms if form.variant}
     assert variants == {"beyond_a_strain", "logarithmic", "settling"}
     assert variants.isdisjoint(column.cause.form.name for column in base.signals)
-    sought = {candidate.cause.form.name for candidate in base.candidates(chosen)}
+    sought = {candidate.cause.form.name for candidate in Search(base, chosen).candidates()}
     assert sought == {form.name for each in chosen for form in each.forms}
 
 
@@ -290,9 +290,8 @@ def test_candidates_record_by_record_are_those_of_the_columns(shared):
     columns = screen(base.model, base.parameters, effects(), residual=residual)
     expected = WhitenedColumns.of(columns, base.whitener, len(residual)).candidates(base.refit.residual, span)
     refit = base.refit
-    [found] = screened(
-        [Extended(base.model, base.parameters, effects(), base.whitener, refit.residual, refit.jacobian)]
-    )
+    extended = Extended(base.model, base.parameters, effects(), base.whitener, refit.residual, refit.jacobian)
+    [found] = Refitting(base, effects(), 1).candidates([extended])
     assert len(found) == len(expected) > 300
     found.sort(key=_place)
     expected.sort(key=_place)

@@ -7,9 +7,13 @@ import math
 from typing import TYPE_CHECKING
 
 from probation.errors import InputError
+from probation.processors import processors
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+MOST_AT_ONCE = 4
+"""Processes of one diagnosis: a quarter of its work is one after the other, and each copy takes time and memory."""
 
 
 def add_effects(parser: argparse._ActionsContainer) -> None:
@@ -34,7 +38,8 @@ def add_threads(parser: argparse._ActionsContainer) -> None:
         "--threads",
         metavar="N",
         type=whole_number(1),
-        help="at most so many processes at once, on Linux (1)",
+        default=min(processors(), MOST_AT_ONCE),
+        help=f"at most so many processes at once, on Linux (one per processor, up to {MOST_AT_ONCE})",
     )
 
 

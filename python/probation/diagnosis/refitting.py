@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
 from probation.diagnosis.budget import Budget
 from probation.effects.cause import Cause
 from probation.inference.base_fit import specimens_hold_the_gap
-from probation.inference.candidate import cause_key
+from probation.inference.candidate import cause_key, noted
 from probation.inference.evidence import Evidence, evidence
 from probation.inference.form_error import form_freedom
 from probation.inference.refit import Ended, Refit, reached, refit
 from probation.inference.remembering import RememberingModel
+from probation.inference.screen import answers_of_record
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.own_deviations import furthest_specimen
 from probation.parallel import Copies
@@ -26,9 +28,10 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
-    from probation.inference.candidate import Key
+    from probation.inference.candidate import Candidate, Extended, Key
     from probation.inference.model import CampaignModel
     from probation.inference.problem import Problem
+    from probation.inference.screen import Answers
 
     Job: TypeAlias = "tuple[CampaignModel, FloatArray | Refit]"
     """A model, and where its refit begins."""
@@ -51,8 +54,18 @@ class _Found(NamedTuple):
     unknown: bool
 
 
+class _Screened(NamedTuple):
+    """Causes to be added to a model, as one record shows them, as data."""
+
+    keys: tuple[Key, ...]
+    parameters: FloatArray
+    record: int
+    wanted: tuple[tuple[Key, tuple[float, ...]], ...]
+    directions: FloatArray
+
+
 class Refitting:
-    """Works out refits and evidences on one base fit, in copies of this process until it is closed.
+    """Works out screens, refits and evidences on one base fit, in copies of this process until it is closed.
 
     Parameters
     ----------
@@ -65,7 +78,9 @@ class Refitting:
     def __init__(self, base: BaseFit, effects: Sequence[Effect], threads: int) -> None:
         self.base = base
         self._effects = {effect.name: effect for effect in effects}
-        self._copies: Copies[_Begun | _Found, Ended | Evidence | str] = Copies(self._done, threads)
+        self._copies: Copies[_Begun | _Found | _Screened, Ended | Evidence | Answers | str] = Copies(
+            self._done, threads
+        )
 
     def close(self) -> None:
         """End the copies."""
@@ -108,6 +123,26 @@ class Refitting:
             for (model, _), one in zip(jobs, ended, strict=True)
         ]
 
+    def candidates(self, extended: Sequence[Extended]) -> list[list[Candidate]]:
+        """What may be added to each model, best first; all records of all models side by side."""
+        screens = [each.screen() for each in extended]
+        asked = [
+            _Screened(
+                _keys_of(each.model),
+                each.parameters,
+                index,
+                tuple((cause_key(cause), values) for cause, values in screen.wanted_of(index)),
+                each.directions[part],
+            )
+            for each, screen in zip(extended, screens, strict=True)
+            for index, part in enumerate(self.base.whitener.slices)
+        ]
+        answers = iter(self._copies.results(asked))
+        return [
+            each.candidates(screen.found([cast("Answers", next(answers)) for _ in screen.views]))
+            for each, screen in zip(extended, screens, strict=True)
+        ]
+
     def evidences(self, fits: Sequence[Refit], *, unknown: bool = False) -> list[Evidence | str]:
         """The evidence of each refit, jointly with an unknown effect, too, where that is asked for; why, if none."""
         found = [_Found(_keys_of(fit.model), fit.ended, unknown) for fit in fits]
@@ -118,8 +153,12 @@ class Refitting:
         forms = form_freedom(fit, self.base.whitener)
         return evidence(fit, self.base.refit, self.base.discrepancy, forms=forms, unknown=unknown)
 
-    def _done(self, task: _Begun | _Found) -> Ended | Evidence | str:
+    def _done(self, task: _Begun | _Found | _Screened) -> Ended | Evidence | Answers | str:
         model = self.base.model.with_causes(self._cause(*key) for key in task.keys)
+        if isinstance(task, _Screened):
+            wanted = [(self._cause(*key), values) for key, values in task.wanted]
+            note = partial(noted, self.base.whitener, task.record, task.directions)
+            return answers_of_record(model, task.parameters, task.record, wanted, note)
         problem = self.base.problem.with_model(model)
         try:
             if isinstance(task, _Found):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from itertools import combinations, compress, product
+from itertools import chain, combinations, compress, product
 from typing import TYPE_CHECKING, Self
 from weakref import WeakKeyDictionary
 
@@ -17,7 +17,7 @@ from probation.diagnosis.refitting import Refitting
 from probation.diagnosis.skipped import Skipping
 from probation.effects.cause import Cause
 from probation.inference.base_fit import with_joint_noise
-from probation.inference.candidate import Candidate, Extended, Key, cause_key, screened
+from probation.inference.candidate import Candidate, Extended, Key, cause_key
 from probation.inference.refit import MOST_STEPS, Refit
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.span import span_of, without
@@ -230,13 +230,16 @@ class Search:
     def _something_left(self, best: Hypothesis) -> bool:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
 
-    def _screen(self) -> None:
+    def candidates(self) -> list[Candidate]:
         """Where single effects may begin, most gain first."""
-        started = self.base.candidates(self.effects, self.threads, self.skipping.screened)
+        extended = self.base.extended(self.effects, self.skipping.screened)
+        started = list(chain(*self.refitting.candidates(extended)))
         for start in self.base.other_starts if self.base.screens_other_starts else ():
             started += self._candidates_at(start)
-        started = sorted(started, key=lambda candidate: -candidate.gain)
-        self._candidates = self._credible(started, self.base.refit)
+        return sorted(started, key=lambda candidate: -candidate.gain)
+
+    def _screen(self) -> None:
+        self._candidates = self._credible(self.candidates(), self.base.refit)
 
     def _most_realised(self) -> float:
         """Largest gain of a single effect that was refitted."""
@@ -288,7 +291,7 @@ class Search:
         except UNSOLVABLE:
             return []
         extended = Extended(model, start, self.effects, self.base.whitener, residual, slopes)
-        [candidates] = screened([extended], self.threads)
+        [candidates] = self.refitting.candidates([extended])
         more, least = without(residual, extended.span), without(base.residual, span_of(base.jacobian))
         worse = float(more @ more - least @ least)
         return [replace(candidate, base=start, gain=candidate.gain - worse) for candidate in candidates]
@@ -340,7 +343,7 @@ class Search:
             for leading, _ in wanted:
                 self.skipping.part(f"a further effect jointly with {' and '.join(leading.effects)}", self.budget.why)
             return
-        candidates = screened([self._extended(leading, only) for leading, only in wanted], self.threads)
+        candidates = self.refitting.candidates([self._extended(leading, only) for leading, only in wanted])
         jobs = [
             self._jobs(leading.refit, self._worth_adding(leading, only, own))
             for (leading, only), own in zip(wanted, candidates, strict=True)

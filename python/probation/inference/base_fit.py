@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
@@ -11,7 +10,7 @@ import numpy as np
 
 from probation.detection.noise_without_waves import without_waves
 from probation.effects.record_view import views_of
-from probation.inference.candidate import Extended, WhitenedColumns, for_a_search_only, for_a_test, screened
+from probation.inference.candidate import Extended, WhitenedColumns, for_a_search_only, for_a_test
 from probation.inference.deviations import deviation_columns
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.modal_law import DnlrLaw
@@ -41,7 +40,6 @@ if TYPE_CHECKING:
     from probation.effects.cause import Cause
     from probation.effects.effect import Effect
     from probation.effects.record_view import RecordView
-    from probation.inference.candidate import Candidate
     from probation.inference.protocol import GapLaw
     from probation.inference.scatter import Scatter
     from probation.inference.screen import Column
@@ -221,17 +219,14 @@ class BaseFit:
         )
         return replace(self, signals=tuple(signals))
 
-    def candidates(
-        self,
-        effects: Sequence[Effect],
-        threads: int = 1,
-        unsolved: Callable[[Cause, Exception], None] | None = None,
-    ) -> list[Candidate]:
-        """Where a search for these effects may begin, best first: forms at fixed starts, and `for_a_search_only`.
+    def extended(
+        self, effects: Sequence[Effect], unsolved: Callable[[Cause, Exception], None] | None = None
+    ) -> tuple[Extended, Extended]:
+        """Where a search for these effects may begin: with forms at fixed starts, and `for_a_search_only`.
 
         `unsolved` is that of `screen`.
         """
-        extended = Extended(
+        read = Extended(
             self.model,
             self.parameters,
             effects,
@@ -241,9 +236,7 @@ class BaseFit:
             unsolved=unsolved,
             only=for_a_search_only,
         )
-        fixed = replace(extended, read=False, only=for_a_test)
-        found = itertools.chain(*screened([fixed, extended], threads))
-        return sorted(found, key=lambda candidate: -candidate.gain)
+        return replace(read, read=False, only=for_a_test), read
 
     @property
     def uncertain_scatter(self) -> UncertainScatter | None:

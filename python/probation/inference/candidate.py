@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from probation.inference.screen import Asked, onsets
+from probation.inference.screen import Screen
 from probation.noise.span import span_of, without
 from probation.settings.search import SEARCH
 
@@ -100,8 +100,10 @@ class Extended:
 
     Attributes
     ----------
-    model, parameters, effects, unsolved, only
-        As in `screen.Asked`.
+    model : CampaignModel
+    parameters : ndarray, shape (n_parameters,)
+    effects, unsolved, only
+        As in `Screen.of`.
     whitener : Whitener
     residual : ndarray, shape (N,)
         Whitened.
@@ -126,21 +128,17 @@ class Extended:
         """Orthonormal basis of what a refit of the model may change, shape (N, k)."""
         return span_of(self.jacobian)
 
-    def asked(self) -> Asked:
-        """The screen, of which is noted what adds up over the records: squares, and products with what is wanted."""
-        whitener = self.whitener
+    @cached_property
+    def directions(self) -> FloatArray:
+        """What slopes are multiplied by in white coordinates, shape (N, m): what adds up over the records."""
         wanted = np.column_stack([without(self.residual, self.span), self.span])
-        directions = np.hstack([whitener.between_records(wanted), whitener.shared[0]])
+        return np.hstack([self.whitener.between_records(wanted), self.whitener.shared[0]])
 
-        def noted(index: int, slopes: FloatArray) -> FloatArray:
-            white = whitener.of_record(index, slopes)
-            return np.vstack([np.einsum("ij,ij->j", white, white), directions[whitener.slices[index]].T @ white])
-
-        return Asked(
+    def screen(self) -> Screen:
+        """The causes that may be added."""
+        return Screen.of(
             self.model,
-            self.parameters,
             self.effects,
-            noted,
             residual=self.model.residual(self.parameters) if self.read else None,
             unsolved=self.unsolved,
             only=self.only,
@@ -157,10 +155,10 @@ class Extended:
         return _ranked(found, along, square)
 
 
-def screened(extended: Sequence[Extended], threads: int = 1) -> list[list[Candidate]]:
-    """The candidates of screens whose columns nobody else needs, for each model; all records side by side."""
-    found = onsets([each.asked() for each in extended], threads)
-    return [each.candidates(own) for each, own in zip(extended, found, strict=True)]
+def noted(whitener: Whitener, index: int, directions: FloatArray, slopes: FloatArray) -> FloatArray:
+    """Squares of slopes along a record, and their products with its directions, shape (1 + m, n_slopes)."""
+    white = whitener.of_record(index, slopes)
+    return np.vstack([np.einsum("ij,ij->j", white, white), directions.T @ white])
 
 
 def for_a_test(form: Form) -> bool:

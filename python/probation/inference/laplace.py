@@ -99,7 +99,8 @@ class Linearised:
     def log_integrals(self, variances: FloatArray, count: int = 0, deviations: FloatArray | float = 1.0) -> FloatArray:
         """The same of several problems at once, shape (m,): the variances D of each stand in a row, shape (m, d).
 
-        In each the last amplitudes, `count` of them, have a standard deviation of their own, shape (m,).
+        In each the last amplitudes, `count` of them, have a standard deviation of their own, shape (m,). One row of
+        variances, (1, d), is that of all.
         """
         both, square_of_both = self._waves
         taken, log_root = np.empty((len(variances), *square_of_both.shape)), np.empty(len(variances))
@@ -110,12 +111,13 @@ class Linearised:
             left = solve_triangular(lower, both, lower=True, check_finite=False)
             taken[index] = square_of_both - left.T @ left
             log_root[index] = np.sum(np.log(np.diag(lower)))
-        precision = np.repeat(self.precision[None, :], len(variances), axis=0)
+        problems = max(len(variances), np.size(deviations))
+        precision = np.repeat(self.precision[None, :], problems, axis=0)
         precision[:, len(self.precision) - count :] = np.asarray(deviations**-2.0)[..., None]
         gradient = self.gradient - taken[:, :-1, -1]
         square = self.square - taken[:, -1, -1]
         diagonal = np.arange(precision.shape[1])
-        total = self.normal - taken[:, :-1, :-1]
+        total = np.repeat(self.normal - taken[:, :-1, :-1], problems // len(variances), axis=0)
         total[:, diagonal, diagonal] += precision
         pull = gradient + precision * self.away
         size = np.sqrt(np.maximum(total[:, diagonal, diagonal], 1e-300))

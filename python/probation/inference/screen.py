@@ -22,6 +22,13 @@ if TYPE_CHECKING:
 _Key: TypeAlias = tuple[str, str, tuple[float, ...]]
 
 
+Wanted: TypeAlias = "tuple[Cause, tuple[float, ...]]"
+"""A cause, and the values of its parameters where it begins."""
+
+Answers: TypeAlias = "dict[_Key, FloatArray | Exception]"
+"""What is noted of one record, by cause and start; why, where the law cannot be solved."""
+
+
 @dataclass(frozen=True, eq=False)
 class Onset:
     """What is noted of how the recorded stress answers to the amplitude of one cause at one start.
@@ -64,36 +71,6 @@ class Column:
     slope: FloatArray
 
 
-@dataclass(frozen=True, eq=False)
-class Asked:
-    """What a screen asks, on top of a model as it is.
-
-    Attributes
-    ----------
-    model : CampaignModel
-    parameters : ndarray, shape (n_parameters,)
-        Of the model.
-    effects : sequence of Effect
-    noted : callable
-        ``noted(index, slopes)``: a record's number and d stress / d amplitude along it [MPa per its unit], a column of
-        (n, m) for each cause and start; returns (k, m). It is called where the record is worked on.
-    residual : ndarray, shape (n_samples,) [MPa], optional
-        Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
-    unsolved : callable, optional
-        Called with each cause that is left out because the law cannot be solved with it, and the error.
-    only : callable, optional
-        Which forms; all if left out.
-    """
-
-    model: CampaignModel
-    parameters: FloatArray
-    effects: Sequence[Effect]
-    noted: Callable[[int, FloatArray], FloatArray]
-    residual: FloatArray | None = None
-    unsolved: Callable[[Cause, Exception], None] | None = None
-    only: Callable[[Form], bool] | None = None
-
-
 def screen(
     model: CampaignModel,
     parameters: FloatArray,
@@ -104,15 +81,27 @@ def screen(
     unsolved: Callable[[Cause, Exception], None] | None = None,
     only: Callable[[Form], bool] | None = None,
 ) -> list[Column]:
-    """Columns of every effect, form, placement and start, on top of the model as it is; as `Asked` says.
+    """Columns of every effect, form, placement and start, on top of the model as it is; records are worked on at once.
+
+    Parameters
+    ----------
+    model, effects, residual, unsolved, only
+        As in `Screen.of`.
+    parameters : ndarray, shape (n_parameters,)
+        Of the model.
+    threads : int
 
     Returns
     -------
     list of Column
         In the order of the effects.
     """
-    asked = Asked(model, parameters, effects, lambda _, slopes: slopes, residual=residual, unsolved=unsolved, only=only)
-    [found] = onsets([asked], threads)
+    asked = Screen.of(model, effects, residual=residual, unsolved=unsolved, only=only)
+    answers = in_parallel(
+        lambda index: answers_of_record(model, parameters, index, asked.wanted_of(index), lambda slopes: slopes),
+        range(len(model.views)),
+        threads,
+    )
     everywhere = slice(0, len(model.data))
     return [
         Column(
@@ -121,47 +110,96 @@ def screen(
             model.rows(onset.records[0]) if onset.cause.records else everywhere,
             np.concatenate(onset.parts),
         )
-        for onset in found
+        for onset in asked.found(answers)
     ]
 
 
-def onsets(asked: Sequence[Asked], threads: int = 1) -> list[list[Onset]]:
-    """What is noted of every effect, form, placement and start, in the order of the effects, for each that is asked.
+def answers_of_record(
+    model: CampaignModel,
+    parameters: FloatArray,
+    index: int,
+    wanted: Sequence[Wanted],
+    noted: Callable[[FloatArray], FloatArray],
+) -> Answers:
+    """What is noted of one record.
 
-    Effects that the law cannot follow, alone or together with those of the model, are left out; see
-    `CampaignModel.missing_capabilities` and `clashes`. So are forms that the records could not show, and those with
-    which it cannot be solved. Records are worked on in parallel.
+    Parameters
+    ----------
+    model : CampaignModel
+    parameters : ndarray, shape (n_parameters,)
+    index : int
+        Of the record.
+    wanted : sequence of (Cause, tuple of float)
+    noted : callable
+        Of d stress / d amplitude along the record [MPa per its unit], a column of (n, m) for each that is wanted;
+        returns (k, m).
     """
-    screens = [_Screen.of(each) for each in asked]
-    parts = [(each, index) for each in screens for index in range(len(each.asked.model.views))]
-    answers = iter(in_parallel(lambda part: part[0].answers(part[1]), parts, threads))
-    return [each.found([next(answers) for _ in each.asked.model.views]) for each in screens]
+    view, (base, active) = model.views[index], model.split(parameters)
+    specimen, still = model.at_rest(view, base, active)
+    slopes: dict[_Key, FloatArray] = {}
+    errors: Answers = {}
+    for cause, values in wanted:
+        form = cause.form
+        size = values[0] if form.threshold else form.amplitude.step(0.0)
+        try:
+            stress = model.with_one_more(view, base, active, cause, (size, *values[1:]), specimen)
+            slopes[_key(cause, values)] = view.sampled((stress - still) / size)
+        except UNSOLVABLE as error:
+            errors[_key(cause, values)] = error
+    if not slopes:
+        return errors
+    return errors | dict(zip(slopes, noted(np.column_stack(list(slopes.values()))).T, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
-class _Screen:
+class Screen:
     """What is wanted of every record, and the causes that it cannot be had of.
 
     Attributes
     ----------
-    asked : Asked
+    views : tuple of RecordView
     wanted : list of (Cause, tuple of float, tuple of RecordView)
         Causes, where they begin, and the records that they act in.
     failed : list of (Cause, Exception)
+    unsolved : callable, optional
     """
 
-    asked: Asked
+    views: tuple[RecordView, ...]
     wanted: list[tuple[Cause, tuple[float, ...], tuple[RecordView, ...]]]
     failed: list[tuple[Cause, Exception]]
+    unsolved: Callable[[Cause, Exception], None] | None
 
     @classmethod
-    def of(cls, asked: Asked) -> _Screen:
-        model = asked.model
+    def of(
+        cls,
+        model: CampaignModel,
+        effects: Sequence[Effect],
+        *,
+        residual: FloatArray | None = None,
+        unsolved: Callable[[Cause, Exception], None] | None = None,
+        only: Callable[[Form], bool] | None = None,
+    ) -> Screen:
+        """Every effect, form, placement and start, on top of a model as it is.
+
+        Effects that the law cannot follow, alone or together with those of the model, are left out; see
+        `CampaignModel.missing_capabilities` and `clashes`. So are forms that the records could not show.
+
+        Parameters
+        ----------
+        model : CampaignModel
+        effects : sequence of Effect
+        residual : ndarray, shape (n_samples,) [MPa], optional
+            Fit residual from which starts of the nonlinear parameters may be read; without it they come from a grid.
+        unsolved : callable, optional
+            Called with each cause that is left out because the law cannot be solved with it, and the error.
+        only : callable, optional
+            Which forms; all if left out.
+        """
         wanted: list[tuple[Cause, tuple[float, ...], tuple[RecordView, ...]]] = []
         failed: list[tuple[Cause, Exception]] = []
-        for effect in asked.effects:
+        for effect in effects:
             for form in effect.forms:
-                if asked.only is not None and not asked.only(form):
+                if only is not None and not only(form):
                     continue
                 cause = Cause(effect, form)
                 try:
@@ -170,38 +208,24 @@ class _Screen:
                     wanted += [
                         (Cause(effect, form, records), values, views)
                         for records, views in _placed(model, effect, form)
-                        for values in _starts(model, form, views, asked.residual)
+                        for values in _starts(model, form, views, residual)
                     ]
                 except UNSOLVABLE as error:
                     failed.append((cause, error))
-        return cls(asked, wanted, failed)
+        return cls(model.views, wanted, failed, unsolved)
 
-    def answers(self, index: int) -> dict[_Key, FloatArray | Exception]:
-        """What is noted of one record; a form at one start is worked out once, wherever it is placed."""
-        model = self.asked.model
-        view, (base, active) = model.views[index], model.split(self.asked.parameters)
-        specimen, still = model.at_rest(view, base, active)
-        slopes: dict[_Key, FloatArray] = {}
-        errors: dict[_Key, FloatArray | Exception] = {}
+    def wanted_of(self, index: int) -> list[Wanted]:
+        """What is wanted of one record; a form at one start is worked out once, wherever it is placed."""
+        view = self.views[index]
+        wanted: dict[_Key, Wanted] = {}
         for cause, values, views in self.wanted:
-            key = _key(cause, values)
-            if view not in views or key in slopes or key in errors:
-                continue
-            form = cause.form
-            size = values[0] if form.threshold else form.amplitude.step(0.0)
-            try:
-                stress = model.with_one_more(view, base, active, cause, (size, *values[1:]), specimen)
-                slopes[key] = view.sampled((stress - still) / size)
-            except UNSOLVABLE as error:
-                errors[key] = error
-        if not slopes:
-            return errors
-        noted = self.asked.noted(index, np.column_stack(list(slopes.values())))
-        return errors | dict(zip(slopes, noted.T, strict=True))
+            if view in views:
+                wanted.setdefault(_key(cause, values), (cause, values))
+        return list(wanted.values())
 
-    def found(self, answers: Sequence[dict[_Key, FloatArray | Exception]]) -> list[Onset]:
-        """The answers of all records, put together."""
-        answers_of = dict(zip(self.asked.model.views, answers, strict=True))
+    def found(self, answers: Sequence[Answers]) -> list[Onset]:
+        """The answers of all records, put together, in the order of the effects."""
+        answers_of = dict(zip(self.views, answers, strict=True))
         failed, found = list(self.failed), []
         for cause, values, views in self.wanted:
             parts: list[FloatArray] = []
@@ -213,9 +237,9 @@ class _Screen:
                 parts.append(part)
             else:
                 found.append(Onset(cause, values, tuple(view.id for view in views), parts))
-        if self.asked.unsolved is not None:
+        if self.unsolved is not None:
             for cause, why in failed:
-                self.asked.unsolved(cause, why)
+                self.unsolved(cause, why)
         return found
 
 

@@ -93,7 +93,7 @@ def _along(fit: Refit, discrepancy: Discrepancy, forms: FloatArray | None, colum
     columns = without(columns, span_of(fit.jacobian[:, : fit.model.base_count]))
     together = columns if forms is None else np.hstack([forms, columns])
     jointly = _around_the_optimum(Linearised.of(fit, discrepancy, together))
-    nothing = np.zeros((len(SIZES), len(jointly.waves_of_residual)))
+    nothing = np.zeros((1, len(jointly.waves_of_residual)))
     scores = jointly.log_integrals(nothing, count, np.sqrt(SIZES))
     return float(logsumexp(scores)) - float(np.log(len(SIZES)))
 
