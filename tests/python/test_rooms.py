@@ -18,8 +18,8 @@ ORDER = re.findall(
     r"\w+",
     """
     _core errors normal settings
-    _interrupt _text _arrays _short_repr _complaint limits _files wording answers provenance origin processors parallel pool
-    progress results law records histories published smoothing noise detection effects inference
+    _interrupt _text _arrays _short_repr _complaint limits _files wording answers provenance origin processors
+    parallel pool progress results law records histories published smoothing noise detection effects inference
     identify design calibration certificate diagnosis comparison
     schemes simulation batch bulk exporting field
     report

@@ -98,6 +98,8 @@ class BaseFit:
         that knows fewer records.
     held_out : tuple of RecordResidual
         The records that were not fitted, as these parameters predict them.
+    held_out_noises : tuple of NoiseModel
+        Their noise, found on themselves, with their specimens' scatter apart.
     noises_of : callable
         Estimates the noise of the records from what a fit leaves of them.
     periodic : bool
@@ -115,6 +117,7 @@ class BaseFit:
     screens_other_starts: bool = False
     signals: tuple[Column, ...] = ()
     held_out: tuple[RecordResidual, ...] = ()
+    held_out_noises: tuple[NoiseModel, ...] = ()
     reference: FloatArray | None = None
     noises_of: NoiseEstimator = fitted_noises
     periodic: bool = True
@@ -177,14 +180,9 @@ class BaseFit:
             covariance -= moved @ moved.T
         return covariance
 
-    @cached_property
-    def held_out_noises(self) -> tuple[NoiseModel, ...]:
-        """The noise of the records that were not fitted, found on themselves, with their specimens' scatter apart."""
-        return tuple(fitted_noises(self.held_out)) if self.held_out else ()
-
     @property
     def predicted_noises(self) -> tuple[NoiseModel, ...]:
-        """The same with the scatter as noise: nothing is known of a specimen before it is tested."""
+        """`held_out_noises` with the scatter as noise: nothing is known of a specimen before it is tested."""
         return tuple(noise.with_specimen_as_noise() for noise in self.held_out_noises)
 
     @cached_property
@@ -317,16 +315,17 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
                 residuals = residuals_at(scattered, fit)
                 break
     parameters = fit.parameters
-    # Effects that hand the force back to the strain must not be handed its noise.
-    quiet = CampaignModel(law, views).quietened(parameters).views
-    fitted = CampaignModel(law, [view for view in quiet if view.role == "identify"])
-    others = [view for view in quiet if view.role != "identify"]
     held_out: list[RecordResidual] = []
-    if others:
+    if others := [view for view in views if view.role != "identify"]:
         rest = CampaignModel(law, others)
         held_out = residuals_of(rest, *rest.residual_and_jacobian(parameters))
         if scatter.any:
             held_out = with_scatter(held_out, deviation_columns(rest, parameters), scatter)
+    # Effects that hand the force back to the strain must not be handed its noise.
+    of_held_out = fitted_noises(held_out) if held_out else ()
+    known = {noise.name: noise for noise in (*noises, *of_held_out)}
+    quiet = CampaignModel(law, views).quietened(parameters, [known[view.id] for view in views]).views
+    fitted = CampaignModel(law, [view for view in quiet if view.role == "identify"])
     return BaseFit(
         law=law,
         views=quiet,
@@ -336,6 +335,7 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
         scatter=scatter,
         alike=alike,
         held_out=tuple(held_out),
+        held_out_noises=of_held_out,
     )
 
 

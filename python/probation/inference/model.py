@@ -15,6 +15,8 @@ from probation.inference.elastic_frame import ElasticFrame
 from probation.inference.own_force import ROUGHLY, SETTLED, SLOPE, OwnForce
 from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
+from probation.noise.outliers import without_outliers
+from probation.noise.own_deviations import own_deviations
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from probation.effects.effect import EffectParameter
     from probation.effects.record_view import RecordView
     from probation.inference.protocol import GapLaw
+    from probation.noise.model import NoiseModel
 
 _PROBE = 1e-3
 """Stress by which what was recorded is probed for its derivative [MPa]."""
@@ -194,22 +197,28 @@ class CampaignModel:
         kept = [cause for cause in self.causes if cause.records is None or ids.issuperset(cause.records)]
         return CampaignModel(self.law, views, kept)
 
-    def quietened(self, parameters: FloatArray) -> CampaignModel:
+    def quietened(self, parameters: FloatArray, noises: Sequence[NoiseModel] = ()) -> CampaignModel:
         """The same model with the noise taken off the recorded stress where effects hand it back to the strain.
 
         What is left of a record is its prediction and the fit residual's slow part (Savitzky & Golay 1964, parabolas
-        over a twenty-fifth of the record): the knees of the stress are the prediction's, the gap is kept.
+        over a twenty-fifth of the record): the knees of the stress are the prediction's, the gap is kept. With the
+        noise of all records, in their order, it is kept as far as the noise has no such slow part (James & Stein 1961),
+        and what a specimen's own deviations make is kept whole.
         """
         base, causes = self.split(parameters)
+        predicted = [self.recorded(view, base, causes) for view in self.views]
+        missing = [view.data - view.sampled(own) for view, own in zip(self.views, predicted, strict=True)]
+        deviations = [np.zeros(len(each)) for each in missing]
+        if noises:
+            missing = [without_outliers(each, noise.outliers) for each, noise in zip(missing, noises, strict=True)]
+            deviations = own_deviations(missing, noises)
         views = []
-        for view in self.views:
-            predicted = self.recorded(view, base, causes)
-            missing = view.data - view.sampled(predicted)
-            window = 2 * (len(missing) // NOISE.quieting_window) + 1
-            if window > _PARABOLA:
-                missing = moving_parabola(missing, window)
-            between = np.interp(view.time, view.sampled(view.time), missing)
-            views.append(view.quietened(predicted + between))
+        for index, view in enumerate(self.views):
+            slow = _slow_part(missing[index] - deviations[index])
+            if noises:
+                slow = slow * _beyond_noise(slow, noises[index])
+            between = np.interp(view.time, view.sampled(view.time), deviations[index] + slow)
+            views.append(view.quietened(predicted[index] + between))
         return CampaignModel(self.law, views, self.causes)
 
     def missing_capabilities(self, cause: Cause) -> frozenset[str]:
@@ -444,6 +453,19 @@ def _difference(
         return (at(value + step) - at(value - step)) / (2.0 * step)
     step = -step if ends else step
     return (at(value + step) - here) / step
+
+
+def _slow_part(residual: FloatArray) -> FloatArray:
+    """Along axis 0, by parabolas over a window of samples; all of a record that is too short for one."""
+    window = 2 * (len(residual) // NOISE.quieting_window) + 1
+    return moving_parabola(residual, window) if window > _PARABOLA else residual
+
+
+def _beyond_noise(slow: FloatArray, noise: NoiseModel) -> float:
+    """How much of a residual's slow part to keep, 0 to 1: what is larger than that of every draw of the noise."""
+    draws = _slow_part(noise.alike.simulate(np.random.default_rng(0), NOISE.quieting_draws).T)
+    of_noise = float(np.max(noise.weight @ draws**2))
+    return max(1.0 - of_noise / max(float(noise.weight @ slow**2), 1e-300), 0.0)
 
 
 def _seen(view: RecordView, causes: CauseValues) -> tuple[RecordView, FloatArray | None]:

@@ -307,6 +307,11 @@ class NoiseSettings:
         "-",
         "Where effects hand the recorded stress back, half the window that smooths it is one over this of a record.",
     )
+    quieting_draws: int = chosen(
+        19,
+        "draws",
+        "Of a record's noise, whose largest slow part is handed back to no effect: one null in twenty exceeds it.",
+    )
     scatter_draws: int = chosen(6000, "steps", "Metropolis steps of the posterior of the specimens' scatter.")
     scatter_burn_in: int = chosen(1000, "steps", "The first of them, which adapt the steps and are left out.")
     most_with_strain_noise: int = chosen(
