@@ -529,14 +529,17 @@ def saw(strain, period, first):
     return pitch - np.floor(pitch) - 1.0
 
 
-def serrated(size, firsts=(0.03, 0.03, 0.03), added=lambda time, strain: 0.0):
-    """Three rates; drops of up to `size` in true stress grow in proportion to the strain from 0.2 on, up to 0.5."""
+def serrated(size, firsts=(0.03, 0.03, 0.03), added=lambda time, strain: 0.0, above=0.0):
+    """Three rates; drops of up to `size` in true stress grow in proportion to the strain from 0.2 on, up to 0.5.
+
+    `above`: which part of them stands above the law.
+    """
     made = []
     for seed, (rate, first) in enumerate(zip((SLOW, 5e-3, FAST), firsts, strict=True)):
         strain = np.linspace(0.0, 1.0, 400 * FINE + 1)
         time = strain / rate
         grown = np.clip((strain - 0.2) / 0.3, 0.0, 1.0)
-        teeth = 0.0 if first is None else size * grown * saw(strain, 0.06, first)
+        teeth = 0.0 if first is None else size * grown * (saw(strain, 0.06, first) + above)
         made.append(record(f"at-{rate:g}", time, strain, LAW.stress(time, strain) + teeth + added(time, strain), seed))
     return campaign(made)
 
@@ -549,6 +552,13 @@ def test_serrated_flow(firsts):
     drop = value(found, "drop_MPa") * -np.expm1((value(found, "onset_strain") - 0.8) / value(found, "growth_strain"))
     assert drop * np.exp(0.8 * value(found, "power_of_stretch")) == pytest.approx(0.3, rel=0.1)
     assert set(found.best.records) == {"at-0.002", "at-0.005", "at-0.01"}
+
+
+def test_serrated_flow_that_rises_above_the_law():
+    """Type A: bands that stop until they are unlocked; the stress rises, and falls back."""
+    found = named(serrated(0.3, above=1.0), "serrated_flow")
+    assert set(found.best.forms) == {"recurring_rises"}
+    assert value(found, "period_strain") == pytest.approx(0.06, rel=0.01)
 
 
 def test_serrated_flow_at_one_rate():

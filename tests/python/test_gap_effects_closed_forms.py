@@ -740,6 +740,10 @@ def test_drops_recur_at_one_pitch_from_where_the_record_has_its_first(first, pow
     # Grown after 3 % of strain; between two drops along a straight line within 3 % of a drop.
     seen = (np.abs(pitch - np.round(pitch)) > 0.06) & (strain > 0.03)
     np.testing.assert_allclose(found[seen] - 1000.0 * strain[seen], saw[seen], atol=0.04 * np.max(np.abs(saw)))
+    # Of type A they rise above the law, by as much, and fall back to it.
+    rising, _ = predicted(bar(), record, "serrated_flow", "recurring_rises", (2.0, 0.1, 10.0, 0.0, 0.006, power))
+    size = 2.0 * np.exp(power * np.maximum.accumulate(strain[seen]))
+    np.testing.assert_allclose(rising[seen] - found[seen], size, rtol=0.01)
 
 
 def test_a_warmer_day_is_another_law():

@@ -160,12 +160,24 @@ def _dropping(view: RecordView, values: Values, stress: FloatArray) -> FloatArra
     return np.asarray(stress + _drops(view, tuple(map(float, values))))
 
 
+def _rising(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """True stress rises by as much, and falls back to what the law has: serrations of type A."""
+    given = tuple(map(float, values))
+    return np.asarray(stress + _drops(view, given) + _size(view, given))
+
+
+def _size(view: RecordView, values: tuple[float, ...]) -> FloatArray:
+    """Of a drop at each instant, shape (n,) [MPa]."""
+    drop, _, _, onset, growth, power = values
+    grown = -np.expm1(-np.maximum(view.largest_strain - onset, 0.0) / growth)
+    return np.asarray(drop * grown * np.exp(power * view.largest_strain))
+
+
 @lru_cache(maxsize=256)
 def _drops(view: RecordView, values: tuple[float, ...]) -> FloatArray:
     """The teeth of one record, shape (n,) [MPa]: kept, since all slopes along other parameters ask for the same."""
-    drop, period, recovery, onset, growth, power = values
-    grown = -np.expm1(-np.maximum(view.largest_strain - onset, 0.0) / growth)
-    return _teeth(view, period, recovery, drop * grown * np.exp(power * view.largest_strain))
+    _, period, recovery, *_ = values
+    return _teeth(view, period, recovery, _size(view, values))
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -186,9 +198,10 @@ EFFECT = Effect(
         "Amplitude: fall of the stress far beyond the onset, over a power of the stretch."
     ),
     source=(
-        "Penning 1972, Acta Metall. 20, 1169; Kubin & Estrin 1985, Acta Metall. 33, 397; Andrianova, Kechekyan & "
-        "Kargin 1971, J. Polym. Sci. A-2 9, 1919; Barenblatt 1974, Rheol. Acta 13, 924; Reed & Walter 2003, Mater. "
-        "Sci. Eng. A 359, 1 (drops grow with strain)"
+        "Penning 1972, Acta Metall. 20, 1169; Rodriguez 1984, Bull. Mater. Sci. 6, 653 (drops below the general level, "
+        "or rises above it: types C and A); Kubin & Estrin 1985, Acta Metall. 33, 397; Andrianova, Kechekyan & Kargin "
+        "1971, J. Polym. Sci. A-2 9, 1919; Barenblatt 1974, Rheol. Acta 13, 924; Reed & Walter 2003, Mater. Sci. Eng. "
+        "A 359, 1 (drops grow with strain)"
     ),
     shows_in="a saw tooth over the strain, whatever the rate; not below the largest strain so far",
     kind="material",
@@ -198,6 +211,15 @@ EFFECT = Effect(
             "recurring_drops",
             _PARAMETERS,
             recorded_stress=_dropping,
+            placements=("all", "one"),
+            starts=_starts,
+            sharp="strain_period",
+            variant=True,
+        ),
+        Form(
+            "recurring_rises",
+            _PARAMETERS,
+            recorded_stress=_rising,
             placements=("all", "one"),
             starts=_starts,
             sharp="strain_period",
