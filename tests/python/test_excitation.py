@@ -402,3 +402,19 @@ def test_the_error_at_a_jump_holds_what_a_machines_lag_rounds_there(often, lag):
         ratios += [(found.true_strain[jump] - strain[jump]) / found.strain_se[jump] for jump in found.jumps]
     assert len(ratios) >= 40
     assert 0.4 < np.sqrt(np.mean(np.square(ratios))) < 1.3
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_where_a_crosshead_changes_its_speed_the_rate_jumps_though_the_true_strain_bends_elsewhere(seed):
+    """At a constant speed the nominal strain is straight, the true strain bends, and before the change by more than
+    behind it. A jump was put six samples early, as the beginning of a lag (p = 1e-153 of a null); another one sample
+    late, at the corner of the stress, since no parabolas described the strain on either side."""
+    rng = np.random.default_rng(seed)
+    even = np.sort(np.append(52.1 * np.arange(400.0), 2180.3))
+    uneven = np.concatenate([[0.0], np.cumsum(rng.uniform(18.0, 50.0, 200))])
+    uneven = np.insert(uneven, 27, uneven[26] + 3.0)
+    for time, at, fast, slow, noise in ((even, 42, 3.8e-4, 4.2e-5, 1e-5), (uneven, 26, 8e-4, 8e-5, 6e-6)):
+        strain = np.log1p(fast * np.minimum(time, time[at]) + slow * np.maximum(time - time[at], 0.0))
+        stress = probation.Law(unrelaxed_modulus=860.0, tau_max=200.0, hardening_modulus=1.0).stress(time, strain)
+        stress += 0.02 * rng.standard_normal(len(time))
+        assert find_jumps(time, strain + noise * rng.standard_normal(len(time)), noise, stress) == [at]

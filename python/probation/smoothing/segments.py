@@ -149,18 +149,18 @@ def _as_two(time: FloatArray, values: FloatArray, noise: float, jump: int, betwe
     behind = [np.maximum(t - at, 0.0) for at in t]
     inner = range(1, len(t) - 3)
 
-    def around(*corners: int) -> tuple[float, list[int]]:
+    def around(*corners: int, curve: FloatArray = y) -> tuple[float, list[int]]:
         """What corners leave, each between a sample and the next, and the samples nearest to them.
 
         A hinge at both samples is one anywhere between, if both bend the same way. Where the corner lies at the first
         sample, noise alone may bend the second hinge the other way: then it is left out. The slopes must differ enough.
         """
         basis = np.column_stack([bent, *(behind[at + own] for at in corners for own in (0, 1))])
-        solution = np.linalg.lstsq(basis, y, rcond=None)[0]
+        solution = np.linalg.lstsq(basis, curve, rcond=None)[0]
         opposite = solution[3::2] * solution[4::2] < 0.0
         if opposite.any():
             basis[:, 4::2][:, opposite] = 0.0
-            solution = np.linalg.lstsq(basis, y, rcond=None)[0]
+            solution = np.linalg.lstsq(basis, curve, rcond=None)[0]
         here, beyond = solution[3::2], solution[4::2]
         change = here + beyond
         after = solution[1] + 2.0 * solution[2] * t[[*corners]] + np.cumsum(change)
@@ -170,13 +170,13 @@ def _as_two(time: FloatArray, values: FloatArray, noise: float, jump: int, betwe
         nearest = [
             part.start + at + int(later) for at, later in zip(corners, np.abs(beyond) > np.abs(here), strict=True)
         ]
-        return float(np.sum((y - basis @ solution) ** 2)), nearest
+        return float(np.sum((curve - basis @ solution) ** 2)), nearest
 
     def left_lagging(since: FloatArray, lag: float) -> float:
         return _left_by(np.column_stack([bent, _turned(since, lag)]), y)
 
     described = len(t) * (SMOOTHING.placed_scatter * noise) ** 2
-    one = min((around(at)[0] for at in inner), default=0.0)
+    one = min((around(at, curve=curve)[0] for at in inner for curve in (y, _nominal(y))), default=0.0)
     if one <= described:
         return [jump]
     two, corners = min(
@@ -256,17 +256,20 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
     """Where a jump begins behind which the machine lags: two lines meet a time constant after that.
 
     The rate goes from one value to another as a first-order lag does; where this does not describe the samples better
-    by `jump_evidence` than a sharp corner does, between samples as well, the jump is sharp, and stays.
+    by `jump_evidence` than a sharp corner does, between samples as well, the jump is sharp, and stays. It is the rate
+    of the strain, or the crosshead's speed: then the strain bends, and before the jump by more than behind it.
     """
     reach = round(max(SMOOTHING.lag_times))
     first = min(max(between[0] + 2, jump - reach), jump)
     part = slice(max(between[0], first - 2 * reach), min(between[1], jump + round(SMOOTHING.lag_reach * reach)) + 1)
     t, y = time[part], values[part]
+    curves = (y, _nominal(y))
     interval = float(np.median(np.diff(time[jump : jump + SMOOTHING.border_samples + 1])))
 
     def left(begin: float, lag: float) -> float:
         turned = _turned(np.maximum(t - begin, 0.0), lag)
-        return _left_by(np.column_stack([np.ones_like(t), t - begin, (t - begin) ** 2, turned]), y)
+        basis = np.column_stack([np.ones_like(t), t - begin, (t - begin) ** 2, turned])
+        return min(_left_by(basis, curve) for curve in curves)
 
     near = time[max(jump - 2, first) : min(jump + 3, between[1] + 1)]
     places = np.arange(SMOOTHING.corner_places * (len(near) - 1) + 1) / SMOOTHING.corner_places
@@ -276,6 +279,12 @@ def _begun(time: FloatArray, values: FloatArray, noise: float, jump: int, betwee
     )
     scale = max(noise, float(np.sqrt(lagging / len(t))))
     return begun if lagging < sharp - SMOOTHING.jump_evidence * scale**2 else jump
+
+
+def _nominal(true_strain: FloatArray) -> FloatArray:
+    """The stretch over its root mean square: straight at a constant crosshead speed, with the errors of the strain."""
+    stretch = np.exp(true_strain - np.mean(true_strain))
+    return np.asarray(stretch / np.sqrt(np.mean(stretch**2)))
 
 
 def _turned(since: FloatArray, lag: float) -> FloatArray:
@@ -293,9 +302,8 @@ def _is_lag(time: FloatArray, values: FloatArray, noise: float, at: tuple[int, i
     places = range(max(jump - before - 2, 1), min(jump - before + 3, len(t) - 1))
     corner = min(_left(t, y, t[at], degree) for at in places for degree in ((1, 2) if bends else (1,)))
     if not bends:
-        stretch = np.exp(y)
-        nominal = min(_left(t, stretch, t[at], 1) for at in places) / float(np.mean(stretch**2))
-        corner = min(corner, nominal)  # at a constant speed of the crosshead it is the nominal strain that is straight
+        nominal = _nominal(y)
+        corner = min(corner, *(_left(t, nominal, t[at], 1) for at in places))
     interval = float(np.median(np.diff(t[: SMOOTHING.border_samples + 1])))
     fading = (np.exp(-t / (lag * interval)) for lag in SMOOTHING.lag_times)
     powers = np.vander(t, 4 if bends else 3)
@@ -315,7 +323,10 @@ def _agrees(time: FloatArray, values: FloatArray, noise: float, jump: int, corne
     """Whether the strain may as well jump at a corner of the stress as where it seemed to."""
     part = _around(time, min(jump, corner), max(jump, corner), others)
     t, y = time[part] - time[jump], values[part]
-    there, here = (min(_left(t, y, time[at] - time[jump], degree) for degree in (1, 2)) for at in (corner, jump))
+    curves = ((y, 1), (y, 2), (_nominal(y), 1))
+    there, here = (
+        min(_left(t, curve, time[at] - time[jump], degree) for curve, degree in curves) for at in (corner, jump)
+    )
     return there - here < (SMOOTHING.stress_corner * noise) ** 2
 
 
