@@ -2,10 +2,13 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from bench import laboratories
 from bench.in_turn import Judged, level_of, row, rows
+from bench.laboratories import said
 from bench.reweighed import gap_in
 
 import probation
@@ -53,6 +56,34 @@ def test_evidence_to_a_lower_power_says_less(gap):
     told = [dict(Judged.of(gap, Trust(power)).ranked)[TRUTH] for power in (1.0, 0.2, 0.02)]
     assert told == sorted(told, reverse=True)
     assert Judged.of(gap, EXACT).right
+
+
+def test_how_sure_and_how_right_is_of_declared_gaps_alone(gap):
+    """Of a right one, a wrong one, one that was not declared, and a null that was."""
+    case = replace(gap.case, truth={**gap.case.truth, "seed": 7})
+    sure = replace(case.answer, probability={TRUTH: 0.75, (): 0.25})
+    wrong = replace(case.answer, probability={("damage",): 0.5, TRUTH: 0.3})
+    cases = [replace(case, answer=each) for each in (sure, wrong, replace(sure, gap=False))]
+    null = replace(case, truth={**case.truth, "stratum": "none", "causes": [], "explanation": []})
+    told = said(Path("university"), [*cases, replace(null, answer=wrong)])
+    assert told[:4] == ["university", "7", "2", "0.62"]
+    assert told[4].startswith("50 % of 2")
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        (["scores.json"], "--said: found scores.json, expected sealed folders"),
+        (["folder", "--by-strength"], "--said: found --by-strength, too; expected one of the two"),
+    ],
+)
+def test_how_sure_is_asked_of_folders_by_itself(monkeypatch, capsys, tmp_path, options, complaint):
+    (tmp_path / "folder").mkdir()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.argv", ["laboratories", *options, "--said"])
+    with pytest.raises(SystemExit):
+        laboratories.main()
+    assert complaint in capsys.readouterr().err
 
 
 class Before:
