@@ -8,8 +8,8 @@ import pytest
 
 from campaigns import made_up_diagnosis as made_up
 from probation import cli
+from probation.commands import analysis_options
 from probation.effects.registry import effects
-from probation.processors import processors
 from probation.published.experiments import twin_campaign
 
 
@@ -50,9 +50,11 @@ def test_all_effects_are_considered_unless_some_are_named(folder, asked):
     assert asked["effects"] is None
 
 
-def test_a_diagnosis_takes_every_processor_that_it_may_use_up_to_four(folder, asked):
+@pytest.mark.parametrize(("allowed", "taken"), [(1, 1), (3, 3), (8, 4)])
+def test_a_diagnosis_takes_every_processor_that_it_may_use_up_to_four(monkeypatch, folder, asked, allowed, taken):
+    monkeypatch.setattr(analysis_options, "processors", lambda: allowed)
     assert cli.main(["diagnose", folder]) == 0
-    assert asked["threads"] == min(processors(), 4)
+    assert asked["threads"] == taken
 
 
 def test_json_stands_alone_on_standard_output_and_the_summary_beside_it(folder, asked, capsys):

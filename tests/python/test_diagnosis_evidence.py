@@ -206,6 +206,8 @@ def test_several_integrals_at_once_are_each_by_itself():
     ]
     assert count > 0
     assert_allclose(together, apart, rtol=1e-12)
+    alike = linearised.log_integrals(np.repeat(variances[:1], 3, axis=0), count, deviations)
+    assert_allclose(linearised.log_integrals(variances[:1], count, deviations), alike, rtol=1e-12)
 
 
 def test_the_freedom_is_along_the_effects_own_coordinate_alike_in_all_records():

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 MOST_AT_ONCE = 4
-"""Processes of one diagnosis: a quarter of its work is one after the other, and each copy takes time and memory."""
+"""Processes of one diagnosis: an eighth of its work is one after the other, and each copy takes time and memory."""
 
 
 def add_effects(parser: argparse._ActionsContainer) -> None:

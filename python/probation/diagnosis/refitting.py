@@ -1,4 +1,4 @@
-"""Refits of sets of causes on one base fit, and what the data say of each; many of them, several at once."""
+"""Screens and refits of sets of causes on one base fit, and what the data say of each; several at once."""
 
 from __future__ import annotations
 

@@ -272,7 +272,7 @@ def _survivor(
         sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
     ):
         return test
-    drifting = Whitened.of(whitened.records, tuple(_drifting(noise) for noise in noises))
+    drifting = Whitened.of(whitened.records, tuple(noise.drifting for noise in noises))
     other = _tested(drifting, _columns(columns.columns, drifting), seed, level, scatter)
     return replace(test, p_value=max(test.p_value, test.p_value_high_noise, other.p_value))
 
@@ -302,13 +302,6 @@ def _tested(
 
 def _columns(signals: Sequence[Column], whitened: Whitened) -> WhitenedColumns:
     return WhitenedColumns.of_smooth(signals, Whitener(whitened.noises), len(whitened))
-
-
-def _drifting(noise: NoiseModel) -> NoiseModel:
-    """The noise with all of its drift along any direction, that of effects included."""
-    if noise.drift is None or noise.nuisance_drift is None:
-        return noise
-    return replace(noise, drift=np.hstack([noise.drift, noise.nuisance_drift]), nuisance_drift=None)
 
 
 def _own(record: RecordResidual, noise: NoiseModel) -> NoiseModel:

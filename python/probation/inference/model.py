@@ -201,9 +201,9 @@ class CampaignModel:
         """The same model with the noise taken off the recorded stress where effects hand it back to the strain.
 
         What is left of a record is its prediction and the fit residual's slow part (Savitzky & Golay 1964, parabolas
-        over a twenty-fifth of the record): the knees of the stress are the prediction's, the gap is kept. With the
-        noise of all records, in their order, it is kept as far as the noise has no such slow part (James & Stein 1961),
-        and what a specimen's own deviations make is kept whole.
+        over a twenty-fifth of the record): the knees of the stress are the prediction's, the gap is kept. Where the
+        noises of all records are given, in their order, the slow part is made smaller by what noise has of it (James &
+        Stein 1961); what a specimen's own deviations make stays whole.
         """
         base, causes = self.split(parameters)
         predicted = [self.recorded(view, base, causes) for view in self.views]
@@ -463,7 +463,7 @@ def _slow_part(residual: FloatArray) -> FloatArray:
 
 def _beyond_noise(slow: FloatArray, noise: NoiseModel) -> float:
     """How much of a residual's slow part to keep, 0 to 1: what is larger than that of every draw of the noise."""
-    draws = _slow_part(noise.alike.simulate(np.random.default_rng(0), NOISE.quieting_draws).T)
+    draws = _slow_part(noise.alike.drifting.simulate(np.random.default_rng(0), NOISE.quieting_draws).T)
     of_noise = float(np.max(noise.weight @ draws**2))
     return max(1.0 - of_noise / max(float(noise.weight @ slow**2), 1e-300), 0.0)
 

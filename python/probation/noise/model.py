@@ -184,6 +184,13 @@ class NoiseModel:
         """The same without deviations of the specimen."""
         return replace(self, specimen=None)
 
+    @property
+    def drifting(self) -> NoiseModel:
+        """The same with all of its drift along any direction, that of effects included."""
+        if self.drift is None or self.nuisance_drift is None:
+            return self
+        return replace(self, drift=np.hstack([self.drift, self.nuisance_drift]), nuisance_drift=None)
+
     def with_specimen_as_noise(self) -> NoiseModel:
         """The same with deviations of the specimen as noise of the record, as a prediction has it."""
         if self.specimen is None:

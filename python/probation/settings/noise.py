@@ -310,7 +310,7 @@ class NoiseSettings:
     quieting_draws: int = chosen(
         19,
         "draws",
-        "Of a record's noise, whose largest slow part is handed back to no effect: one null in twenty exceeds it.",
+        "Draws of a record's noise; the largest of their slow parts is what noise may have: one null in 20 has more.",
     )
     scatter_draws: int = chosen(6000, "steps", "Metropolis steps of the posterior of the specimens' scatter.")
     scatter_burn_in: int = chosen(1000, "steps", "The first of them, which adapt the steps and are left out.")

@@ -161,7 +161,7 @@ def _dropping(view: RecordView, values: Values, stress: FloatArray) -> FloatArra
 
 
 def _rising(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """True stress rises by as much, and falls back to what the law has: serrations of type A."""
+    """True stress rises by as much between one drop and the next, and falls back: serrations of type A."""
     given = tuple(map(float, values))
     return np.asarray(stress + _drops(view, given) + _size(view, given))
 
@@ -223,6 +223,7 @@ EFFECT = Effect(
             placements=("all", "one"),
             starts=_starts,
             sharp="strain_period",
+            several=False,  # in some records of many the drops stand in for them: a search of six numbers in each
             variant=True,
         ),
     ),
