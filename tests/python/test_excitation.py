@@ -417,7 +417,10 @@ def test_where_a_crosshead_changes_its_speed_the_rate_jumps_though_the_true_stra
         strain = np.log1p(fast * np.minimum(time, time[at]) + slow * np.maximum(time - time[at], 0.0))
         noisy = strain + noise * rng.standard_normal(len(time))
         for late in (0, 1):  # a corner of the stress one sample behind is refuted by the strain
-            other = np.interp(time, [0.0, time[at + late], time[-1]], [0.0, strain[at], strain[-1]])
-            stress = probation.Law(unrelaxed_modulus=860.0, tau_max=200.0, hardening_modulus=1.0).stress(time, other)
-            stress += 0.02 * rng.standard_normal(len(time))
+            since = time - time[at + late]
+            yields, relaxes = (
+                20.0 - 5.0 * np.exp(-time / 150.0),
+                20.0 - 3.0 * -np.expm1(-np.maximum(since, 0.0) / 400.0),
+            )
+            stress = np.where(since < 0.0, yields + 5e-3 * since, relaxes) + 0.02 * rng.standard_normal(len(time))
             assert find_jumps(time, noisy, noise, stress) == [at], late

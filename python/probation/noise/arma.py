@@ -10,6 +10,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg import solve_banded
 
 from probation import _core
 from probation.settings.noise import NOISE
@@ -97,12 +98,11 @@ class Arma:
         phi, theta = self.phi, self.theta
         if phi == 0.0 and theta == 0.0:
             return self.innovation * shocks
-        # State s_t = phi x_t + theta e_t: x_{t+1} = s_t + e_{t+1}, of stationary variance (phi + theta)^2/(1 - phi^2).
-        start = (phi + theta) / np.sqrt(1.0 - phi**2) * rng.standard_normal((size, 1))
-        from scipy.signal import lfilter  # noqa: PLC0415
-
-        series: FloatArray = lfilter([1.0, theta], [1.0, -phi], shocks, axis=1, zi=start)[0]
-        return self.innovation * series
+        # phi x + theta e of the sample before the first, of stationary variance (phi + theta)^2/(1 - phi^2).
+        before = (phi + theta) / np.sqrt(1.0 - phi**2) * rng.standard_normal((size, 1))
+        moved = shocks + np.hstack([before, theta * shocks[:, :-1]])
+        bands = np.array([np.ones(count), np.full(count, -phi)])  # of x_t - phi x_{t-1}
+        return np.asarray(self.innovation * solve_banded((1, 0), bands, moved.T).T)
 
 
 @lru_cache(maxsize=256)
