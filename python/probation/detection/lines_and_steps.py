@@ -70,8 +70,10 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
     """The strongest periodic part of every record, by p-value (docs/diagnosis-method.md, section 3).
 
     The periodogram of the whitened residual, slow waves and the record's own refit projected out, against the noise
-    model or the power of the neighbouring frequencies, whichever is larger. Frequencies are tried at twice the natural
-    spacing, which counts as twice as many independent ones (Scargle 1982; an upper bound).
+    model or the power of the neighbouring frequencies, whichever is larger. Neighbours are compared before a moving
+    average is undone, too: where that leaves next to nothing, at the highest frequency, whitening makes a line of any
+    noise that the model lacks. Frequencies are tried at twice the natural spacing, which counts as twice as many
+    independent ones (Scargle 1982; an upper bound).
 
     Parameters
     ----------
@@ -91,7 +93,9 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
         columns = np.column_stack([left, speed_wander_in(whitened, index, white)])
         powers = _power(record.time, columns, frequency, duration)
         power = powers[:, 0]
-        level = np.maximum(running_median(power, DETECTION.line_neighbours) / np.log(2.0), 1.0)
+        undone = whitened.noises[index].arma.moving_average(2.0 * np.pi * frequency * duration / count)
+        around, before = (running_median(each, DETECTION.line_neighbours) for each in (power, power * undone))
+        level = np.maximum(np.maximum(around, before / undone) / np.log(2.0), 1.0)
         level += powers[:, 1:].sum(axis=1)
         best = int(np.argmax(power / level))
         single = float(np.exp(-power[best] / level[best]))

@@ -65,9 +65,12 @@ class Arma:
 
     def spectrum(self, frequency: FloatArray) -> FloatArray:
         """Variance of an orthonormal Fourier coefficient at `frequency` [rad per sample]."""
-        cosine = np.cos(frequency)
-        top = 1.0 + 2.0 * self.theta * cosine + self.theta**2
-        return np.asarray(self.innovation**2 * top / (1.0 - 2.0 * self.phi * cosine + self.phi**2), dtype=np.float64)
+        below = 1.0 - 2.0 * self.phi * np.cos(frequency) + self.phi**2
+        return np.asarray(self.innovation**2 * self.moving_average(frequency) / below, dtype=np.float64)
+
+    def moving_average(self, frequency: FloatArray) -> FloatArray:
+        """The part of the spectrum that theta makes, that of innovations being 1: nearly 0 at pi where theta is 1."""
+        return np.asarray(1.0 + 2.0 * self.theta * np.cos(frequency) + self.theta**2, dtype=np.float64)
 
     def whiten(self, matrix: FloatArray) -> FloatArray:
         """Unit-variance innovations of the columns of `matrix`, exact from the first sample (Brockwell & Davis)."""
