@@ -70,10 +70,10 @@ def find_lines(whitened: Whitened) -> tuple[Line, ...]:
     """The strongest periodic part of every record, by p-value (docs/diagnosis-method.md, section 3).
 
     The periodogram of the whitened residual, slow waves and the record's own refit projected out, against the noise
-    model or the power of the neighbouring frequencies, whichever is larger. Neighbours are compared before a moving
-    average is undone, too: where that leaves next to nothing, at the highest frequency, whitening makes a line of any
-    noise that the model lacks. Frequencies are tried at twice the natural spacing, which counts as twice as many
-    independent ones (Scargle 1982; an upper bound).
+    model or the power of the neighbouring frequencies, whichever is larger. That is also taken as it was before
+    whitening divided it by the spectrum of the moving average: where this is next to nothing, at the highest frequency,
+    whitening makes a line of any noise that the model lacks. Frequencies are tried at twice the natural spacing, which
+    counts as twice as many independent ones (Scargle 1982; an upper bound).
 
     Parameters
     ----------

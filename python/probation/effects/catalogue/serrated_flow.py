@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
+    from probation.effects.effect import StressHook
     from probation.effects.record_view import RecordView
 
 _DROP = 0.04
@@ -189,6 +190,20 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     return [(likely, recovery, _ONSET, _GROWTH, 1.0) for likely in inside for recovery in _RECOVERIES]
 
 
+def _form(name: str, stress: StressHook, *, several: bool = True) -> Form:
+    """One that is sought where something is periodic in the strain."""
+    return Form(
+        name,
+        _PARAMETERS,
+        recorded_stress=stress,
+        placements=("all", "one"),
+        starts=_starts,
+        sharp="strain_period",
+        several=several,
+        variant=True,
+    )
+
+
 EFFECT = Effect(
     name="serrated_flow",
     title="serrated flow",
@@ -207,25 +222,9 @@ EFFECT = Effect(
     kind="material",
     coordinate="largest_strain",
     forms=(
-        Form(
-            "recurring_drops",
-            _PARAMETERS,
-            recorded_stress=_dropping,
-            placements=("all", "one"),
-            starts=_starts,
-            sharp="strain_period",
-            variant=True,
-        ),
-        Form(
-            "recurring_rises",
-            _PARAMETERS,
-            recorded_stress=_rising,
-            placements=("all", "one"),
-            starts=_starts,
-            sharp="strain_period",
-            several=False,  # in some records of many the drops stand in for them: a search of six numbers in each
-            variant=True,
-        ),
+        _form("recurring_drops", _dropping),
+        # Where only some records have them, drops stand in: numbers of their own in each record are a long search.
+        _form("recurring_rises", _rising, several=False),
     ),
     odds=0.3,
 )
