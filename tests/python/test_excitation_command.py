@@ -4,8 +4,9 @@ import json
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
-from probation import Campaign, Record
+from probation import Campaign, Record, excite
 from probation.cli import main
 from probation.published.experiments import twin_campaign
 from probation.smoothing.answer import CSV_HEADER, describe_excitation
@@ -121,11 +122,22 @@ def test_noise_that_is_left_in_the_rate_is_warned_of():
     assert any("mostly noise" in warning for warning in found.warnings)
 
 
-def test_a_run_up_that_is_too_sharp_to_follow_is_warned_of():
-    """The machine reaches its speed within two samples: so short a bend is no segment, and no spline follows it."""
+def test_a_run_up_of_two_samples_is_followed():
+    """The machine reaches its speed within two samples, and loses five hundred times the noise."""
     time = np.linspace(0.0, 20.0, 1001)
-    strain = 0.01 * np.maximum(time - 0.05, 0.0) + 1e-6 * np.random.default_rng(0).normal(size=1001)
-    record = Record("run-up", time, strain, np.zeros(1001))
+    strain = 0.01 * np.maximum(time - 0.05, 0.0)
+    record = Record("run-up", time, strain + 1e-6 * np.random.default_rng(0).normal(size=1001), np.zeros(1001))
+    (found,) = describe_excitation([record], "quintic-spline").records
+    assert not found.warnings
+    assert_allclose(excite(record, "quintic-spline").true_strain, strain, atol=2e-6)
+
+
+def test_a_twitch_that_is_too_sharp_to_follow_is_warned_of():
+    """Of four samples, amid a ramp: so short a bend is no segment, and no spline follows it."""
+    time = np.linspace(0.0, 20.0, 1001)
+    twitch = 1e-4 * np.exp(-(((time - 10.0) / 0.04) ** 2))
+    strain = 0.01 * time + twitch + 1e-6 * np.random.default_rng(0).normal(size=1001)
+    record = Record("twitch", time, strain, np.zeros(1001))
     (found,) = describe_excitation([record], "quintic-spline").records
     assert any("more than 8 times the noise" in warning and "raw takes" in warning for warning in found.warnings)
     (found,) = describe_excitation([record], "raw").records

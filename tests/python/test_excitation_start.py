@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.signal import bilinear, lfilter
+from scipy.stats import chi2
 
 import probation
 from probation import Record, excite
@@ -46,6 +47,50 @@ def test_a_start_that_is_sharp_costs_nothing():
     found = excite(record(time, strain + 1e-5 * np.random.default_rng(0).standard_normal(SAMPLES)))
     assert abs(found.true_strain - strain).max() < 1.2e-5
     assert found.rate == pytest.approx(5e-3, rel=3e-3)
+
+
+def evenly(since, lasts):
+    """Part of the speed that a drive has which accelerates evenly."""
+    return np.clip(since / lasts, 0.0, 1.0)
+
+
+def in_half_a_wave(since, lasts):
+    """The same of one that begins and ends its acceleration gently."""
+    return 0.5 - 0.5 * np.cos(np.pi * evenly(since, lasts))
+
+
+def overshooting(since, lasts):
+    """The same of a loop of second order, damped by six tenths."""
+    damped = 0.8 * since * 4.0 / lasts
+    return 1.0 - np.exp(-0.6 * since * 4.0 / lasts) * (np.cos(damped) + 0.75 * np.sin(damped))
+
+
+def lagging(since, lasts):
+    """The same of a loop of first order."""
+    return -np.expm1(-4.0 * since / lasts)
+
+
+@pytest.mark.parametrize("drive", [evenly, in_half_a_wave, overshooting, lagging])
+def test_no_drive_starts_further_from_the_smoothed_strain_than_is_said_of_it(drive):
+    """Within 1 to 20 samples, in noise of a thirtieth to twice a sample's strain.
+
+    By Mahalanobis' distance of the first thirty samples. First-order lags alone leave nine in ten of the first three
+    beyond a p-value of 1e-3.
+    """
+    random, beyond = np.random.default_rng(1), []
+    for _ in range(40):
+        since = np.arange((SAMPLES - 1) * FINER + 1) / FINER
+        speed = drive(since, random.uniform(1.0, 20.0))
+        travelled = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]))]) / FINER
+        truth = 1e-3 * travelled[::FINER]
+        noise = 1e-3 * np.exp(random.uniform(np.log(0.03), np.log(2.0)))
+        found = excite(record(np.arange(SAMPLES) * 0.5, truth + noise * random.standard_normal(SAMPLES)))
+        errors = found.errors().strain[:30] * found.strain_noise * np.sqrt(found.noise_inflation)
+        size, along = np.linalg.eigh(errors @ errors.T)
+        known = size > 1e-4 * size.max()
+        off = (along.T @ (found.true_strain - truth)[:30])[known]
+        beyond.append(chi2.sf(float(np.sum(off**2 / size[known])), np.count_nonzero(known)) < 1e-3)
+    assert np.mean(beyond) <= 0.1
 
 
 def averaged(window, count, seed):

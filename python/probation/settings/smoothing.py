@@ -113,9 +113,9 @@ class SmoothingSettings:
         "Growth of the variance of rough noise where the lag doubles, at most: 2 for averages, 16 for a curve.",
     )
     lag_caution: float = chosen(
-        12.0, "-", "Twice the log odds against lags at a start from which on they are left out."
+        18.0, "-", "Twice the log odds against a start that takes some samples from which on it is sharp."
     )
-    least_strain_noise: float = chosen(1e-6, "-", "Noise of a strain without noise, over the lags at its start.")
+    least_strain_noise: float = chosen(1e-6, "-", "Noise of a strain without noise, over what its start may leave.")
     smallest_jump_window: int = chosen(
         8, "samples", "Samples on each side through which lines show a discontinuity of the rate, at least."
     )
@@ -128,9 +128,18 @@ class SmoothingSettings:
     sine_blocks: int = chosen(400, "means", "Means of neighbouring samples in which sines are looked for.")
     sine_spacing: float = chosen(0.25, "cycles per record", "Spacing of the frequencies at which a sine begins.")
     lag_times: tuple[float, ...] = chosen(
-        (0.5, 1.0, 2.0, 4.0, 8.0, 16.0), "sampling interval", "Time constants of the lags at a start."
+        (0.5, 1.0, 2.0, 4.0, 8.0, 16.0),
+        "sampling interval",
+        "Time constants of a lag, where a corner is told from one.",
     )
-    short_lags: int = chosen(4, "lags", "The shortest of them, which are tried by themselves, too.")
+    start_knots: tuple[float, ...] = chosen(
+        (0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 24.0, 32.0),
+        "sampling interval",
+        "Knots of what a start leaves of the rate.",
+    )
+    usual_start: float = chosen(
+        4.0, "sampling interval", "What a start leaves is as large as the change of the rate until then, later less."
+    )
     corner_places: int = chosen(
         4, "places", "From sample to sample, at which a sharp corner is tried before a lag is taken for it."
     )

@@ -16,11 +16,11 @@ from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.averaging import Averaging
 from probation.smoothing.operators import Operators
 from probation.smoothing.smoothed import ROUNDS, Smoothed, inflation, polynomial
-from probation.smoothing.transient import WithTransient
+from probation.smoothing.transient import Transient, WithTransient
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.smoothing.transient import Transient
+    from probation.smoothing.rate_change import RateChange
 
 FEWEST_KNOTS, MOST_KNOTS, ALL_KNOTS = 40, 250, 500
 """... but at least and at most so many; up to `ALL_KNOTS` where the knots themselves are what holds the curve back."""
@@ -33,20 +33,20 @@ COARSE = 120
 
 
 def smooth_cubic(
-    time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float | None = None
+    time: FloatArray, true_strain: FloatArray, begins: RateChange | None = None, averaged: float | None = None
 ) -> Smoothed:
     """Smooth by a cubic spline that penalises the integral of the second derivative's square."""
-    return _smooth(time, true_strain, 2, lags, averaged)
+    return _smooth(time, true_strain, 2, begins, averaged)
 
 
 def smooth_quintic(
-    time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float | None = None
+    time: FloatArray, true_strain: FloatArray, begins: RateChange | None = None, averaged: float | None = None
 ) -> Smoothed:
     """Smooth by a quintic spline that penalises the integral of the third derivative's square.
 
     Unlike the cubic one it does not pull the rate's slope to zero at either end, nor its peaks down.
     """
-    return _smooth(time, true_strain, 3, lags, averaged)
+    return _smooth(time, true_strain, 3, begins, averaged)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,18 +109,36 @@ class Basis:
         root = vectors * np.sqrt(np.maximum(values, 0.0))
         strain, rate = self.values @ root, self.slopes @ root
         if joint is not None:
-            root = cholesky(joint.covariance, lower=True)
-            bent = joint.lags.rate - self.slopes @ (shrink[:, None] * (self.values.T @ joint.lags.strain))
-            strain, rate = np.hstack([strain, joint.left @ root]), np.hstack([rate, bent @ root])
+            of_lags = self.errors_of_lags(shrink, joint)
+            strain, rate = np.hstack([strain, of_lags.strain]), np.hstack([rate, of_lags.rate])
         return Operators(strain, rate)
+
+    def errors_of_lags(self, shrink: FloatArray, joint: WithTransient) -> Operators:
+        """Of the start: of its lags, and of whether there are any.
+
+        A normal distribution along the way to the other answer falls by then as the odds do, over one standard
+        deviation at least.
+        """
+        bent = self.bent(shrink, joint)
+        errors = Operators(joint.left @ joint.root, bent @ joint.root)
+        if joint.doubt is None:
+            return errors
+        other, odds = joint.doubt
+        size = joint.noise * np.sqrt(max(odds, 1.0))
+        strain = (other.left @ other.likeliest - joint.left @ joint.likeliest) / size
+        rate = (self.bent(shrink, other) @ other.likeliest - bent @ joint.likeliest) / size
+        return Operators(np.column_stack([errors.strain, strain]), np.column_stack([errors.rate, rate]))
+
+    def bent(self, shrink: FloatArray, joint: WithTransient) -> FloatArray:
+        """What is left of the rates of lags when the curve follows them as far as it may, shape (n_times, n_lags)."""
+        return np.asarray(joint.lags.rate - self.slopes @ (shrink[:, None] * (self.values.T @ joint.lags.strain)))
 
     def operators(self, shrink: FloatArray, joint: WithTransient | None = None) -> Operators:
         """The dense operators, with lags at the start where there are any."""
         right = shrink[:, None] * self.values.T
         strain, rate = self.values @ right, self.slopes @ right
         if joint is not None:
-            bent = joint.lags.rate - self.slopes @ (right @ joint.lags.strain)
-            strain, rate = strain + joint.left @ joint.gain, rate + bent @ joint.gain
+            strain, rate = strain + joint.left @ joint.gain, rate + self.bent(shrink, joint) @ joint.gain
         return Operators(strain, rate)
 
 
@@ -195,7 +213,7 @@ class Score:
 
 
 def _smooth(
-    time: FloatArray, true_strain: FloatArray, order: int, lags: Transient | None, averaged: float | None
+    time: FloatArray, true_strain: FloatArray, order: int, begins: RateChange | None, averaged: float | None
 ) -> Smoothed:
     count = len(time)
     if count < 4 * order + 2:
@@ -204,6 +222,7 @@ def _smooth(
     knots = min(most, max(FEWEST_KNOTS, min(count // SMOOTHING.samples_per_knot, MOST_KNOTS)))
     if averaged is None:
         averaged = Averaging.pooled([true_strain]).inflation
+    lags = None if begins is None else Transient.after(time, begins)
     smoothed = _with_knots(time, true_strain, order, knots, lags, averaged)
     while smoothed.freedom > SMOOTHING.exhausted * knots and knots < min(most, ALL_KNOTS):
         knots = min(2 * knots, most, ALL_KNOTS)
@@ -234,9 +253,7 @@ def _with_knots(
         if lags is not None:
             noise = np.sqrt(grown * float(left @ left) / max(len(left) - float(shrink.sum()) - spent, 1.0))
             joint = WithTransient.of(lags, partial(basis.smoothed, shrink), true_strain, float(noise))
-            taken, spent = np.zeros_like(true_strain), 0.0
-            if joint is not None:
-                taken, spent = joint.lags.strain @ (joint.gain @ true_strain), joint.freedom
+            taken, spent = joint.lags.strain @ joint.likeliest, joint.freedom
         if grown < 1.02 * before and (lags is None or turn >= LEAST_TURNS):
             break
     score = Score(basis, true_strain - taken, SMOOTHING.prudence * grown)
@@ -248,11 +265,10 @@ def _with_knots(
     # bias of a smoother that pulls down peaks, on average along the curve.
     variance, rate_variance = basis.values**2 @ shrink, basis.slopes**2 @ shrink
     if joint is not None:
-        strain, rate = strain + taken, rate + joint.lags.rate @ (joint.gain @ true_strain)
-        covariance = joint.covariance
-        variance += np.sum((joint.left @ covariance) * joint.left, axis=1)
-        bent = joint.lags.rate - basis.slopes @ (shrink[:, None] * (basis.values.T @ joint.lags.strain))
-        rate_variance += np.sum((bent @ covariance) * bent, axis=1)
+        strain, rate = strain + taken, rate + joint.lags.rate @ joint.likeliest
+        of_lags = basis.errors_of_lags(shrink, joint)
+        variance += np.sum(of_lags.strain**2, axis=1)
+        rate_variance += np.sum(of_lags.rate**2, axis=1)
     return Smoothed(
         strain,
         rate,

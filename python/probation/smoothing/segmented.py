@@ -10,8 +10,8 @@ import numpy as np
 
 from probation.settings.smoothing import SMOOTHING
 from probation.smoothing.operators import Operators
+from probation.smoothing.rate_change import RateChange
 from probation.smoothing.smoothed import Smoothed, Smoother, polynomial
-from probation.smoothing.transient import Transient, rate_change
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -141,8 +141,8 @@ class _Segment:
         values = true_strain[first : last + 1][inside]
         few = len(values) < SMOOTHING.shortest_curve
         if lagging is not None and len(values) > SMOOTHING.border_samples:
-            change = rate_change(time, true_strain, first, borders[at - 1] if at else first, last)
-            smoother = partial(lagging, lags=Transient.after(whole, change).of_samples(inside))
+            begins = RateChange.of(time, true_strain, first, borders[at - 1] if at else first, last)
+            smoother = partial(lagging, begins=begins)
         smoothed = polynomial(whole[inside], values, 1) if few else smoother(whole[inside], values)
         return cls(_extended(smoothed, whole, skip, drop), len(values))
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
-    from probation.smoothing.transient import Transient
+    from probation.smoothing.rate_change import RateChange
 
 
 ROUNDS = 20
@@ -71,12 +71,12 @@ class Smoother(Protocol):
 
 
 class LaggingSmoother(Smoother, Protocol):
-    """One that can tell lags after the start of the segment from its noise, also where that is averaged."""
+    """One that can tell the start of the segment from its noise, also where that is averaged."""
 
     def __call__(
-        self, time: FloatArray, true_strain: FloatArray, lags: Transient | None = None, averaged: float | None = None
+        self, time: FloatArray, true_strain: FloatArray, begins: RateChange | None = None, averaged: float | None = None
     ) -> Smoothed:
-        """Smooth; `lags` at the same samples, `averaged` the least inflation of its variance, sought if None."""
+        """Smooth; `begins` is the change at the start, `averaged` the least inflation, sought if None."""
 
 
 def inflation(residual: FloatArray) -> float:

@@ -1,17 +1,20 @@
-"""What a machine makes of a command that changes at once: the strain lags, and bends within some samples.
+"""What a machine makes of a command that changes at once: it takes some samples to get to the new speed.
 
-A smoother's stiffness is that of the whole segment. It takes such a transient for noise, and the law is stiffest there.
-A first-order lag of time constant T after a change of the rate by v leaves the straight line by v T exp(-t / T). A few
-time constants, about a sampling interval and some multiples, stand for other lags; each has a standard deviation of
-v T. They are left out where the samples tell that the start is sharp; it is then smoothed as any other part.
+A smoother's stiffness is that of the whole segment. It takes such a start for noise, and the law is stiffest there. A
+drive accelerates evenly, or along half a wave, or lags as a loop of first or second order does, which may overshoot.
+What all of them leave of the change of the rate, v, is a cubic spline of the time since, over knots that lie further
+and further apart, and ends. Each of its functions has a standard deviation of v, less where it ends later than a start
+usually does. They are left out where the samples tell that the start is sharp; it is then smoothed as any other part.
+What the samples hardly tell is doubted: as far as the other answer would move the strain, it may err.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.interpolate import BSpline
 
 from probation.settings.smoothing import SMOOTHING
 
@@ -19,11 +22,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
+    from probation.smoothing.rate_change import RateChange
+
+DEGREE = 3
+"""Of the splines in what a start leaves."""
 
 
 @dataclass(frozen=True, eq=False)
 class Transient:
-    """Lags after the start of a segment, each of one standard deviation.
+    """What a start may leave, each part of one standard deviation.
 
     Attributes
     ----------
@@ -35,30 +42,23 @@ class Transient:
     rate: FloatArray
 
     @classmethod
-    def after(cls, time: FloatArray, change: float) -> Transient:
-        """After a change of the rate [1/s] at the first sample."""
-        interval = float(np.median(np.diff(time[: SMOOTHING.border_samples + 1])))
-        constants = np.array(SMOOTHING.lag_times) * interval
-        fading = np.exp(-(time - time[0])[:, None] / constants)
-        return cls(change * constants * fading, -change * fading)
+    def after(cls, time: FloatArray, change: RateChange) -> Transient:
+        """At times (n_times,) [s] after a change of the rate."""
+        knots = np.array(SMOOTHING.start_knots)
+        padded = np.concatenate([knots[:1].repeat(DEGREE), knots, knots[-1:].repeat(DEGREE)])
+        every = BSpline(padded, np.eye(len(padded) - DEGREE - 1), DEGREE)
+        since = np.minimum((time - change.at) / change.interval, knots[-1])
+        # The last functions do not come to rest at the last knot.
+        ends = padded[DEGREE + 1 : -DEGREE]
+        size = change.by * np.minimum(1.0, SMOOTHING.usual_start / ends)
+        travelled = every.antiderivative()
+        left = travelled(knots[-1]) - travelled(since)
+        return cls(change.interval * size * left[:, : len(ends)], -size * every(since)[:, : len(ends)])
 
-    def of_samples(self, kept: slice) -> Transient:
-        """The same at some of the samples."""
-        return Transient(self.strain[kept], self.rate[kept])
-
-
-def rate_change(time: FloatArray, true_strain: FloatArray, at: int, before: int, after: int) -> float:
-    """By how much the rate changes [1/s] at sample `at`: straight lines to either side, no further than these samples.
-
-    Before the first sample the specimen is at rest.
-    """
-
-    def slope(part: slice) -> float:
-        return float(np.polyfit(time[part] - time[at], true_strain[part], 1)[0]) if part.stop - part.start > 1 else 0.0
-
-    return slope(slice(at, min(at + SMOOTHING.border_samples, after) + 1)) - slope(
-        slice(max(at - SMOOTHING.border_samples, before), at + 1)
-    )
+    @classmethod
+    def none(cls, count: int) -> Transient:
+        """A sharp start, of so many samples."""
+        return cls(np.zeros((count, 0)), np.zeros((count, 0)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,26 +67,35 @@ class WithTransient:
 
     Attributes
     ----------
+    lags : Transient
+        B.
+    likeliest : ndarray, shape (n_lags,)
+        c.
     left : ndarray, shape (n_times, n_lags)
         (I - S) B.
     gain : ndarray, shape (n_lags, n_times)
         c = gain y.
-    covariance : ndarray, shape (n_lags, n_lags)
-        Of c, over the variance of the noise.
+    root : ndarray, shape (n_lags, n_lags)
+        Its product with its transpose is the covariance of c over the variance of the noise.
+    noise : float
+        Standard deviation of the samples' slow noise [-].
+    doubt : (WithTransient, float) or None
+        The other answer, and twice the log odds for this against it.
     """
 
     lags: Transient
+    likeliest: FloatArray
     left: FloatArray
     gain: FloatArray
-    covariance: FloatArray
+    root: FloatArray
+    noise: float
+    doubt: tuple[WithTransient, float] | None = None
 
     @classmethod
     def of(
         cls, lags: Transient, smooth: Callable[[FloatArray], FloatArray], values: FloatArray, noise: float
-    ) -> WithTransient | None:
-        """For a symmetric smoother at a fixed smoothness; None where the samples show that there are no lags.
-
-        Long lags, which take from the smoother's freedom what it may need elsewhere, only where they are more probable.
+    ) -> WithTransient:
+        """For a symmetric smoother at a fixed smoothness; without lags where the samples show that there are none.
 
         Parameters
         ----------
@@ -97,13 +106,12 @@ class WithTransient:
         noise : float
             Standard deviation of their slow noise [-].
         """
-        best, most = None, -SMOOTHING.lag_caution
-        for count in (SMOOTHING.short_lags, lags.strain.shape[1]):
-            some = Transient(lags.strain[:, :count], lags.rate[:, :count])
-            made, evidence = cls._weighed(some, smooth, values, noise)
-            if evidence > most:
-                best, most = made, evidence
-        return best
+        noise = max(noise, SMOOTHING.least_strain_noise * float(np.max(np.abs(lags.strain), initial=0.0)), 1e-150)
+        with_lags, evidence = cls._weighed(lags, smooth, values, noise)
+        sharp, _ = cls._weighed(Transient.none(len(values)), smooth, values, noise)
+        odds = evidence + SMOOTHING.lag_caution
+        best, other = (with_lags, sharp) if odds > 0.0 else (sharp, with_lags)
+        return replace(best, doubt=(other, abs(odds)))
 
     @classmethod
     def _weighed(
@@ -111,14 +119,13 @@ class WithTransient:
     ) -> tuple[WithTransient, float]:
         """With these lags, and twice the log odds for them."""
         left = lags.strain - smooth(lags.strain)
-        variance = (
-            max(noise, SMOOTHING.least_strain_noise * float(np.max(np.abs(lags.strain), initial=0.0)), 1e-150) ** 2
-        )
-        normal = np.eye(left.shape[1]) + lags.strain.T @ left / variance
-        covariance = np.asarray(np.linalg.inv(normal) / variance, dtype=np.float64)
-        pull = left.T @ values
-        evidence = float(pull @ covariance @ pull) / variance - float(np.linalg.slogdet(normal)[1])
-        return cls(lags, left, covariance @ left.T, covariance), evidence
+        # The samples tell little of some functions apart: an inverse would not be positive.
+        precision, along = np.linalg.eigh(np.eye(left.shape[1]) + lags.strain.T @ left / noise**2)
+        precision = np.maximum(precision, 1.0)
+        root = along / (noise * np.sqrt(precision))
+        pull = root.T @ (left.T @ values)
+        evidence = float(pull @ pull) / noise**2 - float(np.sum(np.log(precision)))
+        return cls(lags, root @ pull, left, root @ (root.T @ left.T), root, noise), evidence
 
     @property
     def freedom(self) -> float:
