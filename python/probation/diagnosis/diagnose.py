@@ -30,7 +30,8 @@ from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit, fit_law
 from probation.inference.calibration_check import check_calibration
-from probation.inference.gap import as_tolerance, find_gap, predictions
+from probation.inference.gap import as_tolerance, find_gap
+from probation.inference.prediction import predictions
 from probation.inference.thinning import thin
 from probation.inference.unknown import UNKNOWN
 from probation.law.schemes import identifying

@@ -17,13 +17,12 @@ from probation.errors import InputError
 from probation.inference.calibration_check import check_calibration
 from probation.inference.candidate import WhitenedColumns, for_a_test
 from probation.inference.model import CampaignModel
+from probation.inference.prediction import jointly, predictions
 from probation.inference.screen import screen
-from probation.law.modification import InitialStress, Modification
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.normal import TWO_SIDED_95
 from probation.records.noise import noise_level
-from probation.records.start import is_far
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
@@ -246,10 +245,14 @@ def find_gap(
         error = whitened.clean(0)
         sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
         columns = _columns(signals, whitened)
-        held_out_test = _survivor(whitened, columns, sizes, seed, base.uncertain_scatter_of(index, noise), calibration)
-        held_out[record.name] = HeldOutGap(
-            _rms(error), _rms(noise.deviation), held_out_test.p_value, held_out_test.level
-        )
+        scatter = base.uncertain_scatter_of(index, noise)
+        held_out_test = _survivor(whitened, columns, sizes, seed, scatter, calibration)
+        p_value = held_out_test.p_value
+        if held_out_test.rejected and (again := jointly(base, index)) is not None:
+            whitened = Whitened.of([again[0]], [again[1]])
+            columns = _columns(signals, whitened)
+            p_value = max(p_value, _survivor(whitened, columns, sizes, seed, scatter, calibration).p_value)
+        held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), p_value, held_out_test.level)
     return Gap(test, held_out, sizes, base.scatter, alike)
 
 
@@ -308,35 +311,6 @@ def _own(record: RecordResidual, noise: NoiseModel) -> NoiseModel:
     """A record's own noise: without what parameters and specimens do to its prediction."""
     propagated = np.zeros((len(record), 0)) if record.propagated is None else record.propagated
     return replace(noise, propagated=propagated, specimen=None)
-
-
-def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseModel, ...]]:
-    """The records that were not fitted, and their noise: the uncertainty of the parameters is part of it.
-
-    Nothing of such a record is refitted: its tangent is zero, and what the parameters do to it is propagated as the
-    strain's noise is. So is a stress of unknown history with which it begins.
-    """
-    spread, directions = np.linalg.eigh(base.covariance)
-    root = directions * np.sqrt(np.maximum(spread, 0.0))
-    records = tuple(replace(record, tangent=np.zeros((len(record), root.shape[0]))) for record in base.held_out)
-    noises = tuple(
-        replace(noise, propagated=np.hstack([noise.propagated, record.tangent @ root, _unknown_start(base, record)]))
-        for record, noise in zip(base.held_out, base.predicted_noises, strict=True)
-    )
-    return records, noises
-
-
-def _unknown_start(base: BaseFit, record: RecordResidual) -> FloatArray:
-    """What a record that begins far from zero may carry of a history that nobody knows, shape (n, 0 or 1) [MPa].
-
-    The law takes its first sample as relaxed. As much as it begins with may relax as the law does.
-    """
-    view = next(view for view in base.views if view.id == record.name)
-    if "initial_stress" not in base.law.capabilities or not is_far(record.time, view.data):
-        return np.zeros((len(record), 0))
-    start = Modification(initial_stress=InitialStress(float(view.data[0])))
-    carried = base.law.stress(view, base.parameters, start) - base.law.stress(view, base.parameters)
-    return view.sampled(carried)[:, None]
 
 
 def _size(error: FloatArray, noise: NoiseModel, stress: float) -> GapSize:
