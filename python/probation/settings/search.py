@@ -78,7 +78,7 @@ class SearchSettings:
     )
     starts: int = chosen(3, "starts", "Starts per form and place that a cause in the running is given.")
     places: int = chosen(2, "records", "Records in which a rig's fault is tried alone, those with the best score.")
-    extended_explanations: int = chosen(3, "explanations", "Best explanations that are added to.")
+    extended_explanations: int = chosen(2, "explanations", "Best explanations that are added to.")
     additions: int = chosen(6, "effects", "Additions that each of them is given.")
     with_unknown: int = chosen(
         5, "hypotheses", "Leading hypotheses with which an unknown effect is looked for jointly."
