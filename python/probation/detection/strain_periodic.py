@@ -299,11 +299,14 @@ def _strongest(
 
     Its period, p-value and power, and how many periods were tried.
     """
-    tried = np.flatnonzero(terms)
-    if not tried.size:
+    tried = int(np.count_nonzero(terms))
+    if not tried:
         return None
-    chances = gammaincc(terms[tried], power[tried])
-    best = int(np.argmin(chances))
-    p_value = smallest_of_many(float(chances[best]), tried.size * families)
-    at = tried[best]
-    return 1.0 / float(frequency[at]), p_value, float(power[at]), len(COORDINATES) * tried.size / step
+    # Of those with as many terms the largest is the least probable.
+    with_as_many = (np.flatnonzero(terms == count) for count in np.unique(terms[terms > 0.0]))
+    largest = np.array([places[np.argmax(power[places])] for places in with_as_many])
+    chances = gammaincc(terms[largest], power[largest])
+    best = np.lexsort((-power[largest], chances))[0]
+    p_value = smallest_of_many(float(chances[best]), tried * families)
+    at = largest[best]
+    return 1.0 / float(frequency[at]), p_value, float(power[at]), len(COORDINATES) * tried / step

@@ -84,14 +84,13 @@ def evidence(
     unknown : bool
         Whether it is also judged jointly with an unknown effect; else its evidence is -inf.
     """
-    plain = Linearised.of(found, discrepancy)
-    free = plain
     columns: FloatArray | None = None
     if forms is not None and forms.columns.shape[1]:
         # What the parameters follow is theirs. Left in, it would let the prior draw a large effect back to nothing
         # while the errors of its form, which are part of the effect, stay as large as they were.
         columns = without(forms.columns, span_of(found.jacobian))
-        free = Linearised.of(found, discrepancy, columns)
+    free = Linearised.of(found, discrepancy, columns)
+    plain = free.without_forms
     variance = forms.variance if forms else max((form_size(cause) ** 2 for cause in found.model.causes), default=1.0)
     done = variance * discrepancy.energy(found.residual - base.residual)
     errors, weights = (EVIDENCE.form_errors, EVIDENCE.form_error_weights) if done.any() else ((0.0,), (1.0,))

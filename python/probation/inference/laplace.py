@@ -92,6 +92,24 @@ class Linearised:
         precision[-count:] = deviation**-2.0
         return replace(self, precision=precision, log_prior=self.log_prior - count * float(np.log(deviation)))
 
+    @property
+    def without_forms(self) -> Linearised:
+        """The same where the forms are right."""
+        count = self.form_count
+        own = slice(len(self.precision) - count)
+        return replace(
+            self,
+            gradient=self.gradient[own],
+            normal=self.normal[own, own],
+            waves_of_jacobian=self.waves_of_jacobian[:, own],
+            away=self.away[own],
+            precision=self.precision[own],
+            log_prior=self.log_prior + 0.5 * count * float(np.log(2.0 * np.pi)),
+            form_count=0,
+            below=self.below[own],
+            above=self.above[own],
+        )
+
     def log_integral(self, variances: FloatArray) -> float:
         """Log of the integral over the parameters of likelihood times prior, C = I + B (D + drift) B^T."""
         return float(self.log_integrals(variances[None, :])[0])
