@@ -24,6 +24,7 @@ from bench.reweighed import Gap, gaps_of
 from probation.inference.calibration_check import CalibrationCheck, Trust
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind.scores.answer import UNKNOWN
+from probation_studies.blind.scores.case import oracle_answer
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -136,7 +137,7 @@ def row(laboratory: str, name: str, own: Sequence[Judged], level: Sequence[float
         " and ".join(f"{100.0 * each:.2f} %" for each in sorted({*level})),
         f"{100.0 * np.mean(held):.0f} %",
         f"{np.mean([each.size(most) for each, most in zip(own, level, strict=True)]):.1f}",
-        f"{np.mean([len(each.gap.case.oracle['answer_set']) for each in own]):.1f}",
+        f"{np.mean([len(oracle_answer(each.gap.case.truth).answer_set) for each in own]):.1f}",
     ]
 
 

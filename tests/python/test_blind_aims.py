@@ -37,7 +37,7 @@ def _truth(*names, detectability=15.0, stratum=None, **cause):
         "explanation": sorted(names),
         "detectability": detectability if names else 0.0,
         "causes": [CAUSE | {"effect": name} | cause for name in names],
-        "oracle": {"right": 1.0, "resolvable": True, "answer_set": [sorted(names)], "posterior": {}},
+        "oracle": {"right": 1.0, "resolvable": True, "posterior": {"+".join(sorted(names)): 1.0}},
         "base": {},
         "records": {
             "a": {"role": "identify", "duration_s": 10.0, "samples": 300},

@@ -80,7 +80,7 @@ def _sealed(folder, tmp_path):
     for path in sorted(folder.iterdir())[:1]:
         (layout.campaigns / path.name).symlink_to(path)
         truth = {"stratum": "none", "explanation": [], "causes": [], "seed": 1, "detectability": 0.0, "base": {}}
-        oracle = {"right": 1.0, "resolvable": True, "posterior": {"": 1.0}, "answer_set": [[]]}
+        oracle = {"right": 1.0, "resolvable": True, "posterior": {"": 1.0}}
         sealed = seal_truth(json.dumps({**truth, "oracle": oracle, "records": {}}))
         sealed.write(layout.truths / f"{path.name}.json")
         seals[path.name] = sealed.seal

@@ -78,7 +78,7 @@ def test_a_scored_test_split_says_that_it_is_too_small_and_spends_its_seed(tmp_p
     folder = tmp_path / "split"
     (folder / "campaigns" / "test-0000").mkdir(parents=True)
     (folder / "truths").mkdir()
-    oracle = {"right": 1.0, "resolvable": True, "posterior": {"": 1.0}, "answer_set": [[]]}
+    oracle = {"right": 1.0, "resolvable": True, "posterior": {"": 1.0}}
     truth = {"stratum": "none", "explanation": [], "causes": [], "seed": 7, "base": {}, "records": {}, "oracle": oracle}
     sealed = seal_truth(json.dumps(truth | {"detectability": 0.0}))
     sealed.write(folder / "truths" / "test-0000.json")

@@ -18,7 +18,7 @@ from probation_studies.blind.score import score_split
 from probation_studies.blind.scores.answer import NO_ANSWER, Answer, Region, read_answer
 from probation_studies.blind.scores.baselines import majority, shuffled
 from probation_studies.blind.scores.board import board
-from probation_studies.blind.scores.case import Case
+from probation_studies.blind.scores.case import Case, oracle_answer
 from probation_studies.blind.scores.intervals import Rate
 from probation_studies.blind.scores.probabilities import area_under_curve, brier_score, log_score, reliability
 from probation_studies.blind.scores.where import overlap
@@ -47,12 +47,7 @@ def _truth(explanation=(), stratum=None, detectability=15.0, mimics="", localise
         "mimics": mimics,
         "detectability": detectability if explanation else 0.0,
         "causes": causes,
-        "oracle": {
-            "right": 1.0,
-            "resolvable": True,
-            "posterior": {"+".join(explanation): 1.0},
-            "answer_set": [list(explanation)],
-        },
+        "oracle": {"right": 1.0, "resolvable": True, "posterior": {"+".join(explanation): 1.0}},
         "records": {
             "a": {"duration_s": 100.0, "history": "ramp", "role": "identify"},
             "b": {"duration_s": 50.0, "history": "ramp", "role": "identify"},
@@ -113,6 +108,16 @@ def test_a_perfect_solver_scores_everything():
     assert scores["reliability"]["ece"] == 0.0
     assert scores["confusion"]["none"] == {"none": 40}
     assert scores["base_parameters"]["none"]["rate"] == 1.0
+
+
+def test_an_oracles_set_has_one_level_in_every_laboratory():
+    """Of 0.6, 0.33, 0.05 and 0.02 three are needed for 0.95, whatever set a laboratory wrote down."""
+    truth = _truth(("damage",))
+    posterior = {"": 0.02, "damage": 0.6, "prestress": 0.33, "damage+prestress": 0.05}
+    truth["oracle"] |= {"posterior": posterior, "answer_set": [["damage"], ["prestress"]]}
+    case = Case("one", truth, read_answer(_diagnosis({("damage",): 0.9, (): 0.1}), "made up"))
+    assert oracle_answer(truth).answer_set == (("damage",), ("prestress",), ("damage", "prestress"))
+    assert board([case])["gaps"]["answer_set"]["oracle_mean_size"] == 3.0
 
 
 def test_false_alarms_are_counted_apart_where_specimens_differ_and_where_strains_are_noisy():

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from probation_studies.blind.scores.case import DETECTABILITIES, UNKNOWN
+from probation_studies.blind.scores.case import DETECTABILITIES, UNKNOWN, oracle_answer
 from probation_studies.blind.scores.closure import closure
 from probation_studies.blind.scores.confusion import confusion, confusion_matrix
 from probation_studies.blind.scores.held import amplitudes, base_parameters
@@ -111,7 +111,7 @@ def _group(cases: Sequence[Case]) -> dict[str, object]:
     """Scores of one group."""
     on_truth = Average.mean([case.probability for case in cases])
     size = [len(case.answer.answer_set) for case in cases]
-    oracle_size = [len(cast("list[object]", case.oracle["answer_set"])) for case in cases]
+    oracle_size = [len(oracle_answer(case.truth).answer_set) for case in cases]
     return {
         "n": len(cases),
         "top1": Rate.of(case.right for case in cases).plain(),

@@ -23,6 +23,9 @@ DETECTABILITIES: tuple[tuple[str, float, float], ...] = (
 OUTSIDE_ENOUGH = 8.0
 """sqrt(lambda) outside the catalogue from which on "unknown" is asked for; less is scored as unresolvable."""
 
+LEVEL = 0.95
+"""Of the oracle's answer sets, whatever level its laboratory wrote them at."""
+
 
 @dataclass(frozen=True)
 class Case:
@@ -150,17 +153,19 @@ class Case:
 
 
 def oracle_answer(truth: Truth) -> Answer:
-    """The oracle's answer to a truth."""
+    """The oracle's answer to a truth; its set is the shortest that holds `LEVEL` of its probability."""
     oracle = cast("Mapping[str, object]", truth["oracle"])
-    posterior = {
-        tuple(name.split("+")) if name else (): value
-        for name, value in cast("Mapping[str, float]", oracle["posterior"]).items()
-    }
-    answer_set = tuple(tuple(names) for names in cast("list[list[str]]", oracle["answer_set"]))
-    whole = sum(posterior.values())
-    posterior = {names: value / whole for names, value in posterior.items()}
-    best = max(posterior, key=lambda names: posterior[names])
-    return Answer(posterior, {}, answer_set, gap=best != ())
+    known = sorted(cast("Mapping[str, float]", oracle["posterior"]).items(), key=lambda each: -each[1])
+    whole = sum(value for _, value in known)
+    posterior = {tuple(name.split("+")) if name else (): value / whole for name, value in known}
+    answer_set: list[Names] = []
+    held = 0.0
+    for names, value in posterior.items():
+        if held >= LEVEL:
+            break
+        answer_set.append(names)
+        held += value
+    return Answer(posterior, {}, tuple(answer_set), gap=answer_set[0] != ())
 
 
-__all__ = ["DETECTABILITIES", "UNKNOWN", "Case", "Truth", "oracle_answer"]
+__all__ = ["DETECTABILITIES", "LEVEL", "UNKNOWN", "Case", "Truth", "oracle_answer"]
