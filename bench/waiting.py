@@ -51,15 +51,18 @@ GOALS = {
     "weak gap": 5.0,
     "strong gap": 10.0,
     "replicates": 30.0,
+    "replicates with a gap": 30.0,
 }
 """Seconds of wall time that were wanted, on two idle cores."""
 
+BOTH = {"rate_dependent_hardening": 2.0, "structural_softening": 2.0}
 DIAGNOSED = {
-    "weak gap": {"force_drift": 1.0},
-    "strong gap": {"rate_dependent_hardening": 2.0, "structural_softening": 2.0},
-    "replicates": {},
+    "weak gap": ({"force_drift": 1.0}, False),
+    "strong gap": (BOTH, False),
+    "replicates": ({}, True),
+    "replicates with a gap": (BOTH, True),
 }
-"""Effects by size, over the scale of their prior; none where nine specimens are alike but for scatter."""
+"""Effects by size, over the scale of their prior, and whether three specimens a rate are tested, which differ."""
 
 
 def file_of(folder: Path, name: str, rate: float, count: int) -> str:
@@ -81,10 +84,10 @@ def record(index: int, rate: float, count: int = 1000) -> Record:
     return Record(f"r{index}", time, strain, 1e-6 * np.arange(count), control="strain-rate")
 
 
-def campaign(sizes: dict[str, float]) -> Campaign:
-    """Six records of 1000 samples with effects; without any nine records of three specimens a rate, which differ."""
+def campaign(sizes: dict[str, float], replicated: bool) -> Campaign:
+    """Six records of 1000 samples with effects; or nine of three specimens a rate, which differ by 3 %."""
     rng = np.random.default_rng(1)
-    rates = RATES if sizes else RATES[1::2] * 3
+    rates = RATES[1::2] * 3 if replicated else RATES
     planned = Campaign(name="waiting", records=tuple(record(i, rate) for i, rate in enumerate(rates)))
     causes = [Cause(effect(name), effect(name).forms[0]) for name in sizes]
     model = CampaignModel(DnlrLaw(LAW), views_of(planned, scheme="sa3"), causes)
@@ -94,10 +97,10 @@ def campaign(sizes: dict[str, float]) -> Campaign:
     ]
     records = []
     for each in planned.records:
-        differs = np.ones(3) if sizes else 1.0 + 0.03 * rng.standard_normal(3)
+        differs = 1.0 + 0.03 * rng.standard_normal(3) if replicated else np.ones(3)
         stress = model.predict(model.parameters(LAW.parameters * differs, *values))[each.id]
         noisy = stress + NOISE * rng.standard_normal(len(stress))
-        records.append(replace(each, true_stress=noisy, specimen_id=None if sizes else each.id, sha256=""))
+        records.append(replace(each, true_stress=noisy, specimen_id=each.id if replicated else None, sha256=""))
     return replace(planned, records=tuple(records))
 
 
@@ -128,7 +131,7 @@ def commands(folder: Path) -> dict[str, list[str]]:
 def main(wanted: list[str]) -> int:
     """Print a line for each row; 1 if one takes longer than wanted."""
     if wanted[:1] == ["--diagnose"]:
-        probation.diagnose(campaign(DIAGNOSED[wanted[1]]), threads=int(wanted[2]))
+        probation.diagnose(campaign(*DIAGNOSED[wanted[1]]), threads=int(wanted[2]))
         return 0
     wanted = wanted or [row for row in GOALS if row != FRESH]
     slow = False

@@ -50,7 +50,7 @@ def test_specimens_that_hold_the_gap_are_given_up_after_the_first_turn_of_noise_
 
     turns = base_fit_module._turns
     monkeypatch.setattr(base_fit_module, "_turns", counted)
-    campaign = waiting.campaign(waiting.DIAGNOSED["strong gap"])
+    campaign = waiting.campaign(*waiting.DIAGNOSED["strong gap"])
     base = base_fit(campaign, plain_fit(campaign, "sa3", None))
     alike, scattered = found
     assert base.scatter.any

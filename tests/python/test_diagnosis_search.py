@@ -234,7 +234,7 @@ def test_a_linearised_gain_that_no_refit_reaches_keeps_no_effect_out(monkeypatch
 
 def test_specimens_do_not_hold_what_a_strong_gap_leaves():
     """Their deviations cost little beside a gap of forty times the noise; a refit must not end where they hold it."""
-    made = waiting.campaign(waiting.DIAGNOSED["strong gap"])
+    made = waiting.campaign(*waiting.DIAGNOSED["strong gap"])
     base = base_fit(made, plain_fit(made))
     assert base.scatter.any
     cause = Cause(effect("damage"), effect("damage").forms[0])
