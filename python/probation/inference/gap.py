@@ -50,7 +50,7 @@ class HeldOutGap:
     expected_MPa : float
         Of what the noise and the uncertainty of the parameters make.
     p_value : float
-        Of the gap test, both allowed for.
+        Of the gap test, both allowed for; of two, see `inference.prediction`, the one that is further from its level.
     level : float
         Below which it is a gap, if it is the only one.
     """
@@ -247,12 +247,15 @@ def find_gap(
         columns = _columns(signals, whitened)
         scatter = base.uncertain_scatter_of(index, noise)
         held_out_test = _survivor(whitened, columns, sizes, seed, scatter, calibration)
-        p_value = held_out_test.p_value
         if held_out_test.rejected and (again := jointly(base, index)) is not None:
             whitened = Whitened.of([again[0]], [again[1]])
             columns = _columns(signals, whitened)
-            p_value = max(p_value, _survivor(whitened, columns, sizes, seed, scatter, calibration).p_value)
-        held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), p_value, held_out_test.level)
+            there = {record.name: _size(whitened.clean(0), _own(record, noise), stress[record.name])}
+            joint_test = _survivor(whitened, columns, there, seed, scatter, calibration)
+            held_out_test = max(held_out_test, joint_test, key=lambda test: test.p_value / test.level)
+        held_out[record.name] = HeldOutGap(
+            _rms(error), _rms(noise.deviation), held_out_test.p_value, held_out_test.level
+        )
     return Gap(test, held_out, sizes, base.scatter, alike)
 
 

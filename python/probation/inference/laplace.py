@@ -94,7 +94,7 @@ class Linearised:
 
     @property
     def without_forms(self) -> Linearised:
-        """The same where the forms are right."""
+        """The same where the forms are right, of standard normal amplitudes."""
         count = self.form_count
         own = slice(len(self.precision) - count)
         return replace(

@@ -8,6 +8,7 @@ ones (`jointly`).
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
     from probation.inference.base_fit import BaseFit
+    from probation.inference.refit import Refit
     from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
 
@@ -54,8 +56,8 @@ def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseM
 def jointly(base: BaseFit, index: int) -> Predicted | None:
     """A record that was not fitted, linearised where it is described best jointly with those that were.
 
-    From there the fitted records alone ask for another step, and what it leaves of this one is the prediction's error.
-    None where the fitted records refute the parameters there, or the law cannot be solved with them.
+    The fitted records by themselves would take a Gauss-Newton step from there; what that leaves of this record is the
+    prediction's error. None where the fitted records refute the parameters there, or the law cannot be solved with any.
 
     Parameters
     ----------
@@ -67,11 +69,14 @@ def jointly(base: BaseFit, index: int) -> Predicted | None:
     view = _view_of(base, record)
     model = CampaignModel(base.law, [*base.model.views, view])
     both = Problem(model, Whitener((*base.whitened.noises, noise)))
+    described: list[Refit] = []
+    for start in (base.parameters, *base.other_starts):
+        with suppress(*UNSOLVABLE):
+            described.append(refit(both, start, most_steps=MOST_STEPS))
+    if not described:
+        return None
+    found = min(described, key=lambda fit: fit.chi_square).parameters
     try:
-        found = min(
-            (refit(both, start, most_steps=MOST_STEPS) for start in (base.parameters, *base.other_starts)),
-            key=lambda fit: fit.chi_square,
-        ).parameters
         there = refit(base.problem, found, most_steps=0)
         left, tangent = CampaignModel(base.law, [view]).residual_and_jacobian(found)
     except UNSOLVABLE:
@@ -79,9 +84,18 @@ def jointly(base: BaseFit, index: int) -> Predicted | None:
     worse = max(there.chi_square - base.refit.chi_square, 0.0)
     if chdtrc(max(len(found), 1), worse) < DETECTION.gap_level:
         return None
-    back = -(np.linalg.pinv(there.jacobian) @ there.residual) * there.coordinates.slopes(found)
-    predicted = replace(record, residual=left + tangent @ back, tangent=tangent)
+    predicted = replace(record, residual=left + tangent @ _step(there), tangent=tangent)
     return _with_parameters_as_noise(replace(base, refit=there), predicted, noise)
+
+
+def _step(fit: Refit) -> FloatArray:
+    """The Gauss-Newton step from there, shape (n_parameters,); none of a parameter that wants beyond its bound."""
+    coordinates = fit.coordinates
+    gradient = fit.jacobian.T @ fit.residual
+    free = ~coordinates.bounds.pushed_out(coordinates.of(fit.parameters), gradient)
+    step = np.zeros(len(free))
+    step[free] = -np.linalg.pinv(fit.jacobian[:, free]) @ fit.residual
+    return np.asarray(step * coordinates.slopes(fit.parameters))
 
 
 def _with_parameters_as_noise(base: BaseFit, record: RecordResidual, noise: NoiseModel) -> Predicted:

@@ -137,9 +137,8 @@ class SmoothingSettings:
         "sampling interval",
         "Knots of what a start leaves of the rate.",
     )
-    usual_start: float = chosen(
-        4.0, "sampling interval", "What a start leaves is as large as the change of the rate until then, later less."
-    )
+    start_part: float = chosen(0.5, "change of the rate", "Standard deviation of each function of what a start leaves.")
+    usual_start: float = chosen(4.0, "sampling interval", "Until then it is that; the later a function ends the less.")
     corner_places: int = chosen(
         4, "places", "From sample to sample, at which a sharp corner is tried before a lag is taken for it."
     )

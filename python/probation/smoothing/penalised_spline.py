@@ -109,15 +109,15 @@ class Basis:
         root = vectors * np.sqrt(np.maximum(values, 0.0))
         strain, rate = self.values @ root, self.slopes @ root
         if joint is not None:
-            of_lags = self.errors_of_lags(shrink, joint)
-            strain, rate = np.hstack([strain, of_lags.strain]), np.hstack([rate, of_lags.rate])
+            of_start = self.errors_of_start(shrink, joint)
+            strain, rate = np.hstack([strain, of_start.strain]), np.hstack([rate, of_start.rate])
         return Operators(strain, rate)
 
-    def errors_of_lags(self, shrink: FloatArray, joint: WithTransient) -> Operators:
+    def errors_of_start(self, shrink: FloatArray, joint: WithTransient) -> Operators:
         """Of the start: of its lags, and of whether there are any.
 
-        A normal distribution along the way to the other answer falls by then as the odds do, over one standard
-        deviation at least.
+        The latter is the way to the other answer over the root of twice the log odds against it, or over 1 if that is
+        more: the density of a normal distribution falls on that way as the odds do.
         """
         bent = self.bent(shrink, joint)
         errors = Operators(joint.left @ joint.root, bent @ joint.root)
@@ -266,9 +266,9 @@ def _with_knots(
     variance, rate_variance = basis.values**2 @ shrink, basis.slopes**2 @ shrink
     if joint is not None:
         strain, rate = strain + taken, rate + joint.lags.rate @ joint.likeliest
-        of_lags = basis.errors_of_lags(shrink, joint)
-        variance += np.sum(of_lags.strain**2, axis=1)
-        rate_variance += np.sum(of_lags.rate**2, axis=1)
+        of_start = basis.errors_of_start(shrink, joint)
+        variance += np.sum(of_start.strain**2, axis=1)
+        rate_variance += np.sum(of_start.rate**2, axis=1)
     return Smoothed(
         strain,
         rate,

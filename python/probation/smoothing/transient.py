@@ -3,9 +3,10 @@
 A smoother's stiffness is that of the whole segment. It takes such a start for noise, and the law is stiffest there. A
 drive accelerates evenly, or along half a wave, or lags as a loop of first or second order does, which may overshoot.
 What all of them leave of the change of the rate, v, is a cubic spline of the time since, over knots that lie further
-and further apart, and ends. Each of its functions has a standard deviation of v, less where it ends later than a start
-usually does. They are left out where the samples tell that the start is sharp; it is then smoothed as any other part.
-What the samples hardly tell is doubted: as far as the other answer would move the strain, it may err.
+and further apart, and ends. Its functions are as large as a part of v, each by itself and all up to a knot together,
+less where they end later than a start usually does. They are left out where the samples tell that the start is sharp;
+it is then smoothed as any other part. What the samples hardly tell is doubted: on the way to the other answer the
+strain may err.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ DEGREE = 3
 
 @dataclass(frozen=True, eq=False)
 class Transient:
-    """What a start may leave, each part of one standard deviation.
+    """What a start may leave: lags, each of one standard deviation.
 
     Attributes
     ----------
@@ -50,10 +51,13 @@ class Transient:
         since = np.minimum((time - change.at) / change.interval, knots[-1])
         # The last functions do not come to rest at the last knot.
         ends = padded[DEGREE + 1 : -DEGREE]
-        size = change.by * np.minimum(1.0, SMOOTHING.usual_start / ends)
         travelled = every.antiderivative()
-        left = travelled(knots[-1]) - travelled(since)
-        return cls(change.interval * size * left[:, : len(ends)], -size * every(since)[:, : len(ends)])
+        left, lost = (travelled(knots[-1]) - travelled(since))[:, : len(ends)], every(since)[:, : len(ends)]
+        # Each function by itself, and all of them up to a knot: a start that lasts until then.
+        ways = np.hstack([np.eye(len(ends)), np.triu(np.ones((len(ends), len(ends))))])
+        ways *= SMOOTHING.start_part * np.tile(np.minimum(1.0, SMOOTHING.usual_start / ends), 2)
+        root = change.by * np.linalg.cholesky(ways @ ways.T)
+        return cls(change.interval * left @ root, -lost @ root)
 
     @classmethod
     def none(cls, count: int) -> Transient:
@@ -95,7 +99,7 @@ class WithTransient:
     def of(
         cls, lags: Transient, smooth: Callable[[FloatArray], FloatArray], values: FloatArray, noise: float
     ) -> WithTransient:
-        """For a symmetric smoother at a fixed smoothness; without lags where the samples show that there are none.
+        """For a symmetric smoother at a fixed smoothness; without lags where they are improbable by `lag_caution`.
 
         Parameters
         ----------
