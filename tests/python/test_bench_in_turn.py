@@ -35,7 +35,7 @@ def planted():
 def gap():
     diagnosis = json.loads(probation.diagnose(planted(), design=False).to_json())
     truth = {"stratum": "single", "causes": [{"effect": "force_gain"}], "explanation": [*TRUTH], "mimics": []}
-    truth["oracle"] = {"answer_set": [[*TRUTH]], "posterior": {}, "right": 1.0}
+    truth["oracle"] = {"posterior": {"+".join(TRUTH): 1.0}, "right": 1.0}
     return gap_in("university", Case("gain", truth, read_answer(diagnosis, "gain")), diagnosis)
 
 
