@@ -1,6 +1,7 @@
 """The next test: what can be planned, what explanations predict of it, and whether it finds the right one as often."""
 
 import json
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -13,12 +14,14 @@ from probation.design.next_test import next_test
 from probation.design.planned_record import planned_noise, planned_view, white_noise
 from probation.design.planned_tests import Laboratory, planned_tests
 from probation.design.predicted import RivalExplanation, RivalPrediction, outcome, predictions
-from probation.effects.cause import cause
+from probation.effects.cause import Cause, cause
 from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.record_view import views_of
+from probation.effects.registry import effects
 from probation.inference.callable_law import CallableLaw
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.law.companion import WEISSENBERG_AS_PRINTED
 from probation.records.record import Record
 from probation.settings.design import DESIGN
@@ -144,6 +147,20 @@ def test_a_dead_weight_hangs_with_a_constant_force():
     hanging = force[len(force) // 4 :]
     np.testing.assert_allclose(hanging, np.median(hanging), rtol=0.02)
     assert f"dead weight of {np.median(hanging):.2g} MPa" in test.what
+
+
+@pytest.mark.parametrize("effect", effects(), ids=lambda each: each.name)
+def test_every_effect_can_be_predicted_in_every_planned_test(effect):
+    """A test that is yet to be done has neither a record nor noise of its strain."""
+    model = two_ramps()
+    for test in planned_tests(Laboratory.of(model, model.start)):
+        view = planned_view("next", test.time, test.true_strain, test.jumps, model.views)
+        for form in effect.forms:
+            placed = None if "all" in effect.placements(form) else ("next",)
+            with suppress(*UNSOLVABLE):  # an effect may be too large for the test
+                alone = CampaignModel(DnlrLaw(LAW), (view,), [Cause(effect, form, placed)])
+                stress = alone.predict(alone.parameters(alone.start[:3], form.typical))["next"]
+                assert np.isfinite(stress).all(), (test.name, form.name)
 
 
 def test_nothing_is_planned_from_records_without_strain():

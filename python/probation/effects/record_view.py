@@ -174,7 +174,7 @@ class RecordView:
         A stiff specimen turns within a thousandth of the strain it has come to: what counts is the strain's noise, not
         a part of its range.
         """
-        return path_since_reversal(behind(self.true_strain, EFFECTS.return_over_noise * self.excitation.strain_noise))
+        return path_since_reversal(behind(self.true_strain, EFFECTS.return_over_noise * self.strain_noise))
 
     @cached_property
     def haward_thackray_strain(self) -> FloatArray:
@@ -281,6 +281,11 @@ class RecordView:
         """What drives the law along the record, at the samples."""
         assert self.measured is not None, "a planned test has no excitation"
         return self.measured.excitation
+
+    @property
+    def strain_noise(self) -> float:
+        """Standard deviation of the recorded strain's noise [-]; 0 of a planned test, whose strain is known."""
+        return 0.0 if self.measured is None else self.excitation.strain_noise
 
     @property
     def stress_noise(self) -> float:

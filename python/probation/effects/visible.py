@@ -46,7 +46,7 @@ def unloads(views: Sequence[RecordView]) -> bool:
 
 def _sheds_force(view: RecordView) -> bool:
     """Whether the force falls by a good part while the strain is taken back by more than its noise."""
-    back = view.largest_strain - view.true_strain > EFFECTS.return_over_noise * view.excitation.strain_noise
+    back = view.largest_strain - view.true_strain > EFFECTS.return_over_noise * view.strain_noise
     if not back.any():
         return False  # its smooth force, whose splines are slow to load, has no say then
     turned = np.maximum.accumulate(np.where(view.true_strain == view.largest_strain, np.arange(len(view.time)), 0))
