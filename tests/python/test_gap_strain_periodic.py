@@ -67,6 +67,16 @@ def test_teeth_that_a_noise_model_holds_for_rough_noise_are_found_by_their_comb(
     assert np.sum(rest**2) < 0.2 * np.sum(told**2)
 
 
+def test_of_periods_that_are_all_certain_the_most_powerful_is_found():
+    """Teeth of a hundred times the noise: many periods have a p-value of 0, the longest among them."""
+    residuals = noise(5)
+    _, strains = whitened(residuals)
+    teeth = [100.0 * problem.SIGMA * ((strain / 0.07) % 1.0 - 0.5) for strain in strains]
+    best = find_strain_periodic(whitened([a + b for a, b in zip(residuals, teeth, strict=True)])[0])[0]
+    assert best.p_value == 0.0
+    assert best.period == pytest.approx(0.07, abs=0.003)
+
+
 def test_noise_offers_no_waves_of_a_ripple():
     waves, log_share = strain_periodic_waves(whitened(noise(1))[0])
     assert waves.shape == (5 * COUNT, 0)

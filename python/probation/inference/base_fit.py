@@ -127,6 +127,10 @@ class BaseFit:
         """The base law on the identify records."""
         return self.refit.model
 
+    def view(self, name: str) -> RecordView:
+        """Of a record, fitted or not, by its id."""
+        return next(view for view in self.views if view.id == name)
+
     @property
     def parameters(self) -> FloatArray:
         """Shape (n_base,)."""

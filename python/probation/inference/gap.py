@@ -6,6 +6,7 @@ One test for `fit`, `certify` and `diagnose` (docs/diagnosis-method.md, sections
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -238,25 +239,39 @@ def find_gap(
     alike = _if_alike(base, test, seed) if base.scatter.any else None
     held_out = {}
     for index, (record, noise) in enumerate(zip(*predictions(base), strict=True)) if predicted else ():
-        whitened = Whitened.of([record], [noise])
-        view = next(view for view in base.views if view.id == record.name)
-        model = CampaignModel(base.law, [view])
+        model = CampaignModel(base.law, [base.view(record.name)])
         signals = screen(model, base.parameters, effects, threads=threads, only=for_a_test)
-        error = whitened.clean(0)
-        sizes[record.name] = _size(error, _own(record, noise), stress[record.name])
-        columns = _columns(signals, whitened)
-        scatter = base.uncertain_scatter_of(index, noise)
-        held_out_test = _survivor(whitened, columns, sizes, seed, scatter, calibration)
-        if held_out_test.rejected and (again := jointly(base, index)) is not None:
-            whitened = Whitened.of([again[0]], [again[1]])
-            columns = _columns(signals, whitened)
-            there = {record.name: _size(whitened.clean(0), _own(record, noise), stress[record.name])}
-            joint_test = _survivor(whitened, columns, there, seed, scatter, calibration)
-            held_out_test = max(held_out_test, joint_test, key=lambda test: test.p_value / test.level)
-        held_out[record.name] = HeldOutGap(
-            _rms(error), _rms(noise.deviation), held_out_test.p_value, held_out_test.level
+        judged = partial(
+            _of_prediction,
+            signals=signals,
+            stress=stress[record.name],
+            seed=seed,
+            scatter=base.uncertain_scatter_of(index, noise),
+            calibration=calibration,
         )
+        error, sizes[record.name], found = judged(record, noise)
+        if found.rejected and (again := jointly(base, index)) is not None:
+            *_, other = judged(*again)
+            found = max(found, other, key=lambda test: test.p_value / test.level)
+        held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value, found.level)
     return Gap(test, held_out, sizes, base.scatter, alike)
+
+
+def _of_prediction(
+    record: RecordResidual,
+    noise: NoiseModel,
+    signals: Sequence[Column],
+    stress: float,
+    seed: int,
+    scatter: UncertainScatter | None,
+    calibration: CalibrationCheck,
+) -> tuple[FloatArray, GapSize, GapTest]:
+    """What the prediction of a record errs by, shape (n,) [MPa], how large that is without the noise, and its test."""
+    whitened = Whitened.of([record], [noise])
+    error = whitened.clean(0)
+    size = _size(error, _own(record, noise), stress)
+    columns = _columns(signals, whitened)
+    return error, size, _survivor(whitened, columns, {record.name: size}, seed, scatter, calibration)
 
 
 def _survivor(

@@ -26,7 +26,6 @@ from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.effects.record_view import RecordView
     from probation.inference.base_fit import BaseFit
     from probation.inference.refit import Refit
     from probation.noise.model import NoiseModel
@@ -47,8 +46,7 @@ def predictions(base: BaseFit) -> tuple[tuple[RecordResidual, ...], tuple[NoiseM
     strain's noise is. So is a stress of unknown history with which it begins.
     """
     found = [
-        _with_parameters_as_noise(base, record, noise)
-        for record, noise in zip(base.held_out, _own_noises(base), strict=True)
+        _with_parameters_as_noise(base, record, _own_noise(base, index)) for index, record in enumerate(base.held_out)
     ]
     return tuple(record for record, _ in found), tuple(noise for _, noise in found)
 
@@ -65,8 +63,8 @@ def jointly(base: BaseFit, index: int) -> Predicted | None:
     index : int
         Of the record among those that were held out.
     """
-    record, noise = base.held_out[index], _own_noises(base)[index]
-    view = _view_of(base, record)
+    record, noise = base.held_out[index], _own_noise(base, index)
+    view = base.view(record.name)
     model = CampaignModel(base.law, [*base.model.views, view])
     both = Problem(model, Whitener((*base.whitened.noises, noise)))
     described: list[Refit] = []
@@ -109,16 +107,10 @@ def _root(covariance: FloatArray) -> FloatArray:
     return np.asarray(directions * np.sqrt(np.maximum(size, 0.0)))
 
 
-def _own_noises(base: BaseFit) -> tuple[NoiseModel, ...]:
-    """Of the records that were not fitted: without the parameters' errors."""
-    return tuple(
-        replace(noise, propagated=np.hstack([noise.propagated, _unknown_start(base, record)]))
-        for record, noise in zip(base.held_out, base.predicted_noises, strict=True)
-    )
-
-
-def _view_of(base: BaseFit, record: RecordResidual) -> RecordView:
-    return next(view for view in base.views if view.id == record.name)
+def _own_noise(base: BaseFit, index: int) -> NoiseModel:
+    """Of a record that was not fitted: without the parameters' errors."""
+    noise = base.predicted_noises[index]
+    return replace(noise, propagated=np.hstack([noise.propagated, _unknown_start(base, base.held_out[index])]))
 
 
 def _unknown_start(base: BaseFit, record: RecordResidual) -> FloatArray:
@@ -126,7 +118,7 @@ def _unknown_start(base: BaseFit, record: RecordResidual) -> FloatArray:
 
     The law takes its first sample as relaxed. As much as it begins with may relax as the law does.
     """
-    view = _view_of(base, record)
+    view = base.view(record.name)
     if "initial_stress" not in base.law.capabilities or not is_far(record.time, view.data):
         return np.zeros((len(record), 0))
     start = Modification(initial_stress=InitialStress(float(view.data[0])))
