@@ -5,6 +5,8 @@ import pytest
 
 import probation
 from probation_studies.blind.laboratory import wider
+from probation_studies.blind.laboratory.causes import AT_TEMPERATURES, KNOWN, OUTSIDE
+from probation_studies.blind.laboratory.trial import Setting
 
 
 def _nulls():
@@ -70,3 +72,76 @@ def test_replicates_follow_one_history(nulls):
             assert np.sqrt(np.mean((first.true_strain - other) ** 2)) < 0.02
             alike += 1
     assert alike >= 1
+
+
+TEMPERATURES = "temperature_dependence"
+
+
+@pytest.fixture(scope="module")
+def dependent():
+    """Three of seed 6 whose single effect it is."""
+    found = [wider.make(6, index, stratum="single") for index in (12, 16, 33)]
+    assert all(sealed.truth.explanation == (TEMPERATURES,) for sealed in found)
+    return found
+
+
+def _degrees(sealed):
+    return [sealed.truth.records[record.id].get("temperature_C") for record in sealed.records]
+
+
+def test_records_of_tests_at_several_temperatures_state_them_and_others_none(nulls, tmp_path):
+    several = [sealed for sealed in nulls if _degrees(sealed)[0] is not None]
+    assert 0 < len(several) < len(nulls)
+    for index, sealed in enumerate(nulls):
+        campaign = probation.Campaign.load(sealed.write(tmp_path / str(index)))
+        for record, degrees in zip(campaign.records, _degrees(sealed), strict=True):
+            if degrees is None:
+                assert record.temperature is None
+            else:
+                assert record.temperature == pytest.approx(degrees, abs=1.0)
+
+
+def test_what_depends_on_the_temperature_acts_in_tests_at_several(dependent):
+    """The identified records stand at several, and the stress of all that are off 23 °C is another."""
+    for sealed in dependent:
+        degrees = dict(zip([record.id for record in sealed.records], _degrees(sealed), strict=True))
+        identified = [degrees[record.id] for record in sealed.records if not record.held_out]
+        assert len(set(identified)) > 1
+        for name, added in sealed.truth.added_stress.items():
+            assert (added > 0.0) == (degrees[name] != 23.0), name
+
+
+def test_a_thermometer_on_the_specimen_shows_that_it_warms_itself():
+    sealed = wider.make(7, 14, stratum="pair")
+    assert "self_heating" in sealed.truth.explanation
+    rises = [
+        float(np.mean(record.temperature[-20:]) - degrees)
+        for record, degrees in zip(sealed.records, _degrees(sealed), strict=True)
+    ]
+    assert max(rises) > 0.5
+    assert min(rises) > -0.5
+
+
+def test_the_room_drifts_only_where_no_thermometer_shows_it():
+    sealed = wider.make(8, 5, stratum="single")
+    assert sealed.truth.explanation == ("temperature_drift",)
+    assert _degrees(sealed) == [None] * len(sealed.records)
+    for cause in (*KNOWN, *AT_TEMPERATURES, *OUTSIDE):
+        shown = {several for several in (True, False) if cause.shows(_setting(temperatures=several))}
+        expected = {"temperature_dependence": {True}, "temperature_drift": {False}, "open_door": {False}}
+        assert shown == expected.get(cause.name, {True, False})
+
+
+def _setting(*, temperatures):
+    return Setting(
+        duration=100.0,
+        end_strain=0.5,
+        largest_force=30.0,
+        slowest=1e-4,
+        fastest=1e-2,
+        reference_rate=1e-3,
+        sample=0.3,
+        longest_time=50.0,
+        unloads=True,
+        temperatures=temperatures,
+    )

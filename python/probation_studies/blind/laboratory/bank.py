@@ -11,7 +11,7 @@ from scipy.linalg import solve_triangular
 
 from probation_studies.blind.laboratory.material import integrate
 from probation_studies.blind.laboratory.specimens import Own
-from probation_studies.blind.laboratory.trial import Acting, Setting, Trial, recorded_stress
+from probation_studies.blind.laboratory.trial import ROOM_DEGREES, Acting, Setting, Trial, recorded_stress
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -39,6 +39,8 @@ class Bench:
     reference_rate : float [1/s]
     specimens : tuple of Own
         Of the records; empty where they are alike.
+    degrees : tuple of float [°C]
+        Temperatures of the tests, which are recorded; empty where all are made in the same room.
     """
 
     law: BaseLaw
@@ -47,6 +49,7 @@ class Bench:
     held_out: tuple[bool, ...]
     reference_rate: float
     specimens: tuple[Own, ...] = ()
+    degrees: tuple[float, ...] = ()
 
     def specimen(self, k: int) -> Own:
         """What the specimen of a record has of its own."""
@@ -66,6 +69,7 @@ class Bench:
             test.fine_strain if fine else test.strain,
             k / max(len(self.tests) - 1, 1),
             self.reference_rate,
+            self.degrees[k] if self.degrees else ROOM_DEGREES,
         )
 
     def base_and_tangent(self, k: int) -> tuple[FloatArray, FloatArray]:
@@ -181,6 +185,7 @@ class Bank:
             sample=max(test.schedule.duration / len(test.time) for test in tests),
             longest_time=float(np.exp(bench.law.log_time(np.array([bench.reference_rate]))[0])),
             unloads=any(test.schedule.unloads for test in tests),
+            temperatures=bool(bench.degrees),
         )
 
     def add(self, random: Generator, causes: Sequence[Cause]) -> None:
@@ -190,7 +195,7 @@ class Bank:
         bench = self.bench
         overall = self.setting(bench.identified)
         for cause in causes:
-            if cause.needs_unloading and not overall.unloads:
+            if not cause.shows(overall):
                 continue
             if "all" in cause.placements:
                 everywhere += [(cause, cause.draw(random, overall)) for _ in range(cause.draws)]

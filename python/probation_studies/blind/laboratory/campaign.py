@@ -28,6 +28,7 @@ class WrittenRecord:
     true_strain: FloatArray
     true_stress: FloatArray
     noise: dict[str, float]
+    temperature: FloatArray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +85,9 @@ class SealedCampaign:
 
 def _csv(record: WrittenRecord) -> str:
     text = StringIO()
-    text.write("time_s,true_strain,true_stress_MPa\n")
-    columns = np.column_stack([record.time, record.true_strain, record.true_stress])
-    np.savetxt(text, columns, fmt="%.12g", delimiter=",")
+    columns = {"time_s": record.time, "true_strain": record.true_strain, "true_stress_MPa": record.true_stress}
+    if record.temperature is not None:
+        columns["temperature_C"] = record.temperature
+    text.write(",".join(columns) + "\n")
+    np.savetxt(text, np.column_stack([*columns.values()]), fmt="%.12g", delimiter=",")
     return text.getvalue()

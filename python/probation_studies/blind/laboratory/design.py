@@ -29,6 +29,8 @@ _HELD_OUT_PART = 1.0 / 3.0
 _SPECIMENS_DIFFER = 0.5
 _REPLICATED = 0.5
 _WIDER_STRAIN_NOISE = (-5.3, -3.0)  # decimal logarithm
+_SEVERAL_TEMPERATURES = 0.25
+_CHAMBER = (5.0, 15.0, 23.0, 30.0, 40.0, 50.0)  # °C
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,14 @@ class Design:
     scatter: tuple[float, ...] = ()
 
 
-def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool, wider: bool = False) -> Design:
+def draw_design(
+    random: Generator,
+    *,
+    needs_unloading: bool,
+    needs_reach: bool,
+    wider: bool = False,
+    temperatures: bool | None = None,
+) -> Design:
     """Draw a campaign as a laboratory might run it.
 
     Parameters
@@ -60,6 +69,8 @@ def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool, 
         It goes to large strains.
     wider : bool
         With the errors of `laboratory.wider`.
+    temperatures : bool, optional
+        Of `laboratory.wider`, whether tests stand at several temperatures; drawn if left out.
     """
     modulus = float(np.exp(random.uniform(np.log(500.0), np.log(4000.0))))
     end = random.uniform(1.2, 2.0) if needs_reach else random.uniform(0.6, 2.0)
@@ -106,7 +117,19 @@ def draw_design(random: Generator, *, needs_unloading: bool, needs_reach: bool, 
         noise = replace(noise, strain=strain, first_strain=True)
     if scatter:
         bench = replace(bench, specimens=tuple(draw_own(random, scatter) for _ in range(count)))
+    if wider and (random.uniform() < _SEVERAL_TEMPERATURES if temperatures is None else temperatures):
+        bench = replace(bench, degrees=_chamber(random, schedules, bench.identified))
     return Design(bench, noise, scatter)
+
+
+def _chamber(random: Generator, schedules: Sequence[Schedule], identified: Sequence[int]) -> tuple[float, ...]:
+    """Temperatures of the tests [°C], two or three of them; replicates stand at one, identified records at several."""
+    while True:
+        levels = random.choice(_CHAMBER, int(random.integers(2, 4)), replace=False)
+        of_each = {id(schedule): float(random.choice(levels)) for schedule in schedules}
+        degrees = tuple(of_each[id(schedule)] for schedule in schedules)
+        if len({degrees[k] for k in identified}) > 1:
+            return degrees
 
 
 def _replicated(random: Generator, schedules: Sequence[Schedule]) -> list[Schedule]:

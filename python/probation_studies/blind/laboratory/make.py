@@ -11,7 +11,7 @@ import numpy as np
 from probation.errors import InputError
 from probation_studies.blind.laboratory.bank import Bank, Signal
 from probation_studies.blind.laboratory.campaign import SealedCampaign, WrittenRecord
-from probation_studies.blind.laboratory.causes import KNOWN, OUTSIDE
+from probation_studies.blind.laboratory.causes import AT_TEMPERATURES, KNOWN, OUTSIDE
 from probation_studies.blind.laboratory.design import Design, draw_design
 from probation_studies.blind.laboratory.known_causes import left_when_told
 from probation_studies.blind.laboratory.noise import draw_record_noise
@@ -47,6 +47,7 @@ SAMPLING_LIMIT = 0.7
 _MIMIC_COSINE, _MIMIC_LEFT, _MIMIC_LEAST, _MIMIC_MOST = 0.97, 1.8, 5.0, 40.0
 _OUTSIDE_LEFT = 3.0
 _ATTEMPTS = 60
+_THERMOMETER = 0.1  # °C
 
 
 def make(
@@ -119,12 +120,14 @@ class _Outcome:
 
 
 def _attempt(random: Generator, stratum: str, wider: bool) -> _Outcome | None:
-    wishes = _wishes(random, stratum)
+    wishes = _wishes(random, stratum, wider)
+    temperatures = _temperatures(wishes)
     design = draw_design(
         random,
         needs_unloading=any(wish.cause.needs_unloading for wish in wishes) or random.uniform() < 0.3,
         needs_reach=any(wish.cause.name == "finite_extensibility" for wish in wishes),
         wider=wider,
+        temperatures=temperatures.pop() if temperatures else None,
     )
     run = _Run(random, design)
     undisturbed = run_undisturbed(run.bench, design.noise, run.bank)
@@ -136,7 +139,7 @@ def _attempt(random: Generator, stratum: str, wider: bool) -> _Outcome | None:
         if found is None:
             return None
         planted.append(found)
-    run.bank.add(random, [*KNOWN, *OUTSIDE])
+    run.bank.add(random, [*KNOWN, *AT_TEMPERATURES, *OUTSIDE])
     mimics = ""
     if stratum == "outside" and left_by_others(run.bank.signals, planted[0].column, ())[0] < _OUTSIDE_LEFT:
         return None
@@ -155,14 +158,20 @@ def _attempt(random: Generator, stratum: str, wider: bool) -> _Outcome | None:
     return _Outcome(run, planted, target, mimics, undisturbed, recorded)
 
 
-def _wishes(random: Generator, stratum: str) -> list[Wish]:
+def _wishes(random: Generator, stratum: str, wider: bool) -> list[Wish]:
     if stratum == "single":
-        return [draw_wish(random, draw_names(random, 1)[0])]
+        return [draw_wish(random, draw_names(random, 1, temperatures=wider)[0])]
     if stratum == "pair":
-        return [draw_wish(random, name, least=5.0) for name in draw_names(random, 2)]
+        both = [draw_wish(random, name, least=5.0) for name in draw_names(random, 2, temperatures=wider)]
+        return both if len(_temperatures(both)) < 2 else _wishes(random, stratum, wider)
     if stratum == "outside":
         return [draw_wish(random, OUTSIDE[int(random.integers(len(OUTSIDE)))].name, outside=True, least=5.0)]
     return []
+
+
+def _temperatures(wishes: Sequence[Wish]) -> set[bool]:
+    """Whether what is wished for needs tests at several temperatures (True) or at one (False); empty if it does not."""
+    return {each for wish in wishes if (each := wish.cause.temperatures) is not None}
 
 
 def _pretence(random: Generator, run: _Run) -> tuple[Wish, Planted, str] | None:
@@ -220,7 +229,8 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
                 "duration_s": float(test.time[-1]),
                 "samples": len(test.time),
             }
-            for name, test, out in zip(bench.ids, bench.tests, bench.held_out, strict=True)
+            | ({"temperature_C": bench.degrees[k]} if bench.degrees else {})
+            for k, (name, test, out) in enumerate(zip(bench.ids, bench.tests, bench.held_out, strict=True))
         },
         sampling_detectability=outcome.undisturbed.sampling_detectability,
         drift_detectability=recorded.drift_detectability,
@@ -245,12 +255,19 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
             true_strain=strain,
             true_stress=stress,
             noise=noise,
+            temperature=_read(run.random, bench.degrees[k] + recorded.rise[k]) if bench.degrees else None,
         )
-        for name, test, out, strain, stress in zip(
-            bench.ids, bench.tests, bench.held_out, recorded.strain, recorded.stress, strict=True
+        for k, (name, test, out, strain, stress) in enumerate(
+            zip(bench.ids, bench.tests, bench.held_out, recorded.strain, recorded.stress, strict=True)
         )
     )
     return SealedCampaign(truth.name, records, bench.law.companion, truth, specimens_differ=bool(bench.specimens))
+
+
+def _read(random: Generator, degrees: FloatArray) -> FloatArray:
+    """What a thermometer on the specimen shows [°C]: it is off by a tenth, and noisy by another."""
+    off, noisy = _THERMOMETER * random.standard_normal(), _THERMOMETER * random.standard_normal(len(degrees))
+    return np.asarray(np.round(degrees + off + noisy, 2))
 
 
 def _by_record(bench: Bench, samples: Sequence[FloatArray]) -> dict[str, float]:

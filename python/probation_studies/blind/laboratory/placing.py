@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation_studies.blind.laboratory.causes import KNOWN, NAMES, OUTSIDE
+from probation_studies.blind.laboratory.causes import AT_TEMPERATURES, KNOWN, NAMES, OUTSIDE
 from probation_studies.blind.laboratory.oracle import TARGETS
 from probation_studies.blind.laboratory.trial import Acting
 
@@ -61,7 +61,7 @@ class Planted:
 
 def draw_wish(random: Generator, name: str, *, outside: bool = False, least: float = 0.0) -> Wish:
     """One of the forms of a name, its placement and a target of at least `least`."""
-    forms = [cause for cause in (OUTSIDE if outside else KNOWN) if cause.name == name]
+    forms = [cause for cause in (OUTSIDE if outside else (*KNOWN, *AT_TEMPERATURES)) if cause.name == name]
     cause = forms[int(random.integers(len(forms)))]
     placement = cause.placements[int(random.integers(len(cause.placements)))]
     targets = [target for target in TARGETS if target >= least]
@@ -69,9 +69,10 @@ def draw_wish(random: Generator, name: str, *, outside: bool = False, least: flo
     return Wish(cause, placement == "all", float(target))
 
 
-def draw_names(random: Generator, count: int) -> list[str]:
-    """Different names of the catalogue."""
-    return [NAMES[k] for k in random.permutation(len(NAMES))[:count]]
+def draw_names(random: Generator, count: int, *, temperatures: bool) -> list[str]:
+    """Different names of the catalogue, of tests at several temperatures among them."""
+    names = (*NAMES, *dict.fromkeys(cause.name for cause in AT_TEMPERATURES)) if temperatures else NAMES
+    return [names[k] for k in random.permutation(len(names))[:count]]
 
 
 def plant(
@@ -86,7 +87,7 @@ def plant(
         record = int(identified[int(random.integers(len(identified)))])
     records = identified if record is None else [record]
     setting = bank.setting(records)
-    if wish.cause.needs_unloading and not setting.unloads:
+    if not wish.cause.shows(setting):
         return None
     if shape is None:
         shape = wish.cause.draw(random, setting)

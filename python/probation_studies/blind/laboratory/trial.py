@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 Shape: TypeAlias = "dict[str, float]"
 """A cause's parameters in addition to its amplitude, with their units in their names."""
 
+ROOM_DEGREES = 23.0
+"""Temperature at which the parameters of the base law stand [°C]."""
+
 _ITERATIONS = 60
 _SETTLED = 1e-5
 """Part of the frame's strain."""
@@ -41,6 +44,8 @@ class Setting:
         tau_max at the reference rate.
     unloads : bool
         Whether any record is unloaded.
+    temperatures : bool
+        Whether tests stand at several temperatures, which are recorded.
     """
 
     duration: float
@@ -52,6 +57,7 @@ class Setting:
     sample: float
     longest_time: float
     unloads: bool
+    temperatures: bool
 
 
 @dataclass
@@ -65,6 +71,8 @@ class Trial:
     place : float
         Its place in the order of test, from 0 to 1.
     reference_rate : float [1/s]
+    degrees : float [°C]
+        Temperature of the chamber.
     strain : ndarray, shape (n,)
         The specimen's.
     log_factor, modulus_factor : ndarray, shape (n - 1,)
@@ -77,6 +85,8 @@ class Trial:
         Share of the section that carries load.
     compliance : callable, optional
         Strain of the frame from the nominal stress.
+    rise : ndarray, shape (n,) [°C]
+        Of the specimen's temperature over the chamber's, once its stress was found.
     """
 
     law: BaseLaw
@@ -84,6 +94,7 @@ class Trial:
     nominal: FloatArray
     place: float
     reference_rate: float
+    degrees: float = ROOM_DEGREES
     strain: FloatArray = field(init=False)
     log_factor: FloatArray = field(init=False)
     modulus_factor: FloatArray = field(init=False)
@@ -91,6 +102,7 @@ class Trial:
     network: FloatArray = field(init=False)
     area: FloatArray = field(init=False)
     extra: FloatArray = field(init=False)
+    rise: FloatArray = field(init=False)
     weight: FloatArray = field(init=False)
     overstress: FloatArray = field(init=False)
     activation: Activation | None = None
@@ -102,7 +114,7 @@ class Trial:
         self.strain = self.nominal.copy()
         self.log_factor, self.modulus_factor = np.zeros(n - 1), np.ones(n - 1)
         self.network_factor, self.area, self.extra = np.ones(n), np.ones(n), np.zeros(n)
-        self.weight, self.overstress = WEIGHT, np.zeros_like(WEIGHT)
+        self.weight, self.overstress, self.rise = WEIGHT, np.zeros_like(WEIGHT), np.zeros(n)
         self.measure()
 
     @property
@@ -183,6 +195,8 @@ class Cause:
     localised : bool
         Whether it happens in a part of the record.
     needs_unloading : bool
+    temperatures : bool, optional
+        Whether it needs tests at several temperatures, which are recorded, or tests at one, which is not.
     draws : int
         Shapes that a bank of signals needs of it.
     most : callable, optional
@@ -201,6 +215,7 @@ class Cause:
     known_as: str = ""
     localised: bool = False
     needs_unloading: bool = False
+    temperatures: bool | None = None
     draws: int = 3
     most: Callable[[Setting], float] | None = None
 
@@ -212,6 +227,11 @@ class Cause:
     def largest(self, setting: Setting) -> float:
         """Largest plausible amplitude."""
         return 3.0 * self.scale if self.most is None else min(3.0 * self.scale, self.most(setting))
+
+    def shows(self, setting: Setting) -> bool:
+        """Whether there is something for it to act on, and it is not recorded as what it is not."""
+        at_its_temperatures = self.temperatures is None or self.temperatures == setting.temperatures
+        return at_its_temperatures and (setting.unloads or not self.needs_unloading)
 
     @property
     def solves(self) -> bool:
@@ -241,6 +261,8 @@ def recorded_stress(trials: Sequence[tuple[Trial, Sequence[Acting]]]) -> list[Fl
     stresses = _solved([trial for trial, _ in trials])
     answers = []
     for (trial, causes), specimen_stress in zip(trials, stresses, strict=True):
+        if trial.heating is not None:
+            trial.rise = trial.heating.rise(trial.specimen(), specimen_stress / trial.area)
         stress = specimen_stress * np.exp(trial.nominal - trial.strain)  # made with the recorded strain
         for cause in causes:
             if cause.cause.record:

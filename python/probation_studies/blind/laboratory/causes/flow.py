@@ -112,7 +112,7 @@ def _ageing(random: Generator, setting: Setting) -> Shape:
     return {"strain": 10.0 ** random.uniform(-1.7, -0.7), "sharpness": random.uniform(0.7, 2.0)}
 
 
-_room = partial(Cause, "temperature_drift", 2.0, signed=True, draws=2)
+_room = partial(Cause, "temperature_drift", 2.0, signed=True, temperatures=False, draws=2)
 
 CAUSES = (
     Cause("rate_dependent_relaxation", 0.5, _width, change=_bounded, signed=True, draws=2),

@@ -148,7 +148,7 @@ CAUSES = (
         change=_bauschinger,
         known_as="back_stress",
     ),
-    _local("open_door", 3.0, _somewhere, change=_open_door, placements=("one",), draws=2),
+    _local("open_door", 3.0, _somewhere, change=_open_door, placements=("one",), temperatures=False, draws=2),
     _outside("wavy_strain_scale", 0.002, _waves, strain=_wavy_strain, placements=("all", "one")),
     _outside(
         "moisture",

@@ -1,0 +1,65 @@
+"""What the temperature of a test changes, where tests stand at several."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from probation_studies.blind.laboratory.trial import ROOM_DEGREES, Cause
+
+if TYPE_CHECKING:
+    from probation_studies.blind.laboratory.trial import Shape, Trial
+
+_KELVIN = 273.15
+
+
+def _activated(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """Arrhenius for the times; the glass loses a little of its modulus, in proportion."""
+    room = ROOM_DEGREES + _KELVIN
+    warmer = trial.degrees - ROOM_DEGREES
+    trial.log_factor += amplitude * room**2 * (1.0 / (warmer + room) - 1.0 / room)
+    trial.modulus_factor *= 1.0 - shape["modulus_part"] * amplitude * warmer
+
+
+def _free_volume(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """Williams, Landel and Ferry for the times; the network is entropic: its stress goes with the kelvins."""
+    warmer = trial.degrees - ROOM_DEGREES
+    trial.log_factor -= amplitude * warmer / (1.0 + warmer / shape["c2_degC"])
+    trial.network_factor *= 1.0 + warmer / (ROOM_DEGREES + _KELVIN)
+
+
+def _entangled(trial: Trial, amplitude: float, shape: Shape) -> None:
+    """Arrhenius for the times; heat dissolves entanglements, exponentially (Raha and Bowden 1972)."""
+    room = ROOM_DEGREES + _KELVIN
+    warmer = trial.degrees - ROOM_DEGREES
+    trial.log_factor += amplitude * room**2 * (1.0 / (warmer + room) - 1.0 / room)
+    trial.network_factor *= np.exp(-shape["network_part"] * amplitude * warmer)
+
+
+CAUSES = (
+    Cause(
+        "temperature_dependence",
+        0.08,
+        lambda r, s: {"modulus_part": r.uniform(0.01, 0.06)},
+        change=_activated,
+        temperatures=True,
+        draws=2,
+    ),
+    Cause(
+        "temperature_dependence",
+        0.08,
+        lambda r, s: {"c2_degC": r.uniform(80.0, 200.0)},
+        change=_free_volume,
+        temperatures=True,
+        draws=2,
+    ),
+    Cause(
+        "temperature_dependence",
+        0.08,
+        lambda r, s: {"network_part": r.uniform(0.05, 0.3)},
+        change=_entangled,
+        temperatures=True,
+        draws=2,
+    ),
+)
