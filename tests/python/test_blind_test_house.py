@@ -114,14 +114,24 @@ def test_a_wrong_section_of_two_per_cent_is_seen_in_its_record_alone(everything)
     assert all(np.array_equal(each, np.ones(len(each))) for each in ratio[1:])
 
 
-def test_an_elastic_frame_takes_the_travel_that_it_should(everything):
-    """The specimen's elongation and 1e-5 per MPa are the travel: along that strain the law gives the force."""
+@pytest.mark.parametrize(
+    ("form", "amount", "shape"),
+    [
+        pytest.param("linear", 1e-5, {}, id="a stiff frame"),
+        pytest.param("linear", 2e-3, {}, id="a frame six times as soft as the specimen"),
+        pytest.param("contacts", 1.7e-3, {"q": 0.717}, id="soft contacts"),
+    ],
+)
+def test_a_frame_takes_the_travel_that_it_should(everything, form, amount, shape):
+    """The specimen's elongation and the frame's are the travel: along the former the law gives the force."""
     test = everything[0]
-    force = observe(test, [Effect(FORMS["machine_compliance", "linear"], 1e-5, {})])[1]
-    specimen = np.log(np.exp(test.history.strain[test.history.at]) - 1e-5 * force)
+    force = observe(test, [Effect(FORMS["machine_compliance", form], amount, shape)])[1]
+    given_way = amount * np.sign(force) * np.abs(force) ** shape.get("q", 1.0)
+    specimen = np.log(np.exp(test.history.strain[test.history.at]) - given_way)
     expected = base_stress(test, specimen) * np.exp(-specimen)
     late = len(force) // 20  # sampling shows at the start
     assert np.max(np.abs(force - expected)[late:]) < 2e-3 * np.max(force)
+    assert np.all(np.diff(force)[:late] > 0.0)
 
 
 def test_its_causes_are_of_the_catalogue_in_two_forms_each():
