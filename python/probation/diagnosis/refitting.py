@@ -177,13 +177,13 @@ class Refitting:
     def refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
-        With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap; so it
-        is with a strong gap, where the start explains some of it and no specimen deviates unusually there. Else
-        deviations of many standard deviations cost little, and the misfit counts only along what they do not explain.
-        So specimens that are alike come first there. Where one of them is then far from what is usual, that is the end;
-        else the refit goes on from there, unless its next steps leave more and a specimen still deviates unusually. A
-        search that explains less than no effect does goes on, too: a fault in one record pulls the law of specimens
-        that are alike.
+        With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap; with a
+        strong gap, if it explains some of it and no specimen deviates unusually. Else deviations of many standard
+        deviations cost little, and the misfit counts only along what they do not explain. So specimens that are alike
+        come first there. Where one of them is then far from what is usual, that is the end; else the refit goes on from
+        there, unless its next steps leave more and a specimen still deviates unusually. A search that explains less
+        than no effect does goes on, too: a fault in one record pulls the law of specimens that are alike. What leaves
+        more than the start does, with specimens that are usual there, is not taken.
         """
         if not self.base.scatter.any:
             return refit(self.base.problem.with_model(model), start, most_steps=steps)
@@ -204,24 +204,25 @@ class Refitting:
             with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
                 misfit = float(np.sum(problem.residual_and_jacobian(first)[0] ** 2))
         weak = misfit <= len(self.base.whitened) + SEARCH.strong_gap
-        usual = None if weak or misfit >= self.base.refit.chi_square else self._usual_at(problem, first)
-        if weak or usual is not None:
-            fit = refit(problem, start, most_steps=steps)
-            most = 1.0 if weak else SEARCH.nearly_usual
-            if self._furthest(fit) <= most or not specimens_hold_the_gap(model, noises, first, fit.parameters):
-                return fit
+        fit = refit(problem, start, most_steps=steps)
+        usual = self._furthest(fit) <= 1.0
+        if weak and not specimens_hold_the_gap(model, noises, first, fit.parameters):
+            return fit
+        if usual and (weak or self._explains(fit)):
+            return fit
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
-        explains = there.chi_square <= self.base.refit.chi_square
-        if weak or not explains or self._furthest(there) <= SEARCH.farthest_specimen:
+        if weak or not self._explains(there) or self._furthest(there) <= SEARCH.farthest_specimen:
             there = self._from_alike(there, alike, steps, differentiable=differentiable)
-        return there if usual is None or there.chi_square < usual.chi_square else usual
+        if misfit < min(there.chi_square, self.base.refit.chi_square):
+            here = refit(problem, first, most_steps=0)
+            return here if self._furthest(here) <= 1.0 else there
+        return there
 
-    def _usual_at(self, problem: Problem, parameters: FloatArray) -> Refit | None:
-        """These parameters, if no specimen deviates unusually there."""
-        here = refit(problem, parameters, most_steps=0)
-        return here if self._furthest(here) <= 1.0 else None
+    def _explains(self, fit: Refit) -> bool:
+        """Whether it leaves less than no effect does."""
+        return fit.chi_square < self.base.refit.chi_square
 
     def _from_alike(self, there: Refit, alike: FloatArray, steps: int, *, differentiable: bool) -> Refit:
         """From where specimens that are alike ended; there itself, where specimens that differ would hold the gap."""
@@ -233,7 +234,7 @@ class Refitting:
             fit = near if begun.steps < SEARCH.steps_apart else refit(problem, near, most_steps=steps)
             if self._furthest(fit) <= 1.0 or not specimens_hold_the_gap(model, noises, alike, fit.parameters):
                 return fit
-        if there.chi_square <= self.base.refit.chi_square:
+        if self._explains(there):
             return there
         fit = refit(problem, near, most_steps=steps)
         held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
