@@ -18,7 +18,7 @@ from probation.inference.refit import Ended, Refit, reached, refit
 from probation.inference.remembering import RememberingModel
 from probation.inference.screen import answers_of_record
 from probation.inference.unsolvable import UNSOLVABLE
-from probation.noise.own_deviations import furthest_specimen
+from probation.noise.own_deviations import furthest_specimen, specimens_within
 from probation.parallel import Copies
 from probation.settings.search import SEARCH
 
@@ -177,13 +177,14 @@ class Refitting:
     def refit(self, model: CampaignModel, start: FloatArray | Refit, steps: int) -> Refit:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
-        With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap; with a
-        strong gap, if it explains some of it and no specimen deviates unusually. Else deviations of many standard
-        deviations cost little, and the misfit counts only along what they do not explain. So specimens that are alike
-        come first there. Where one of them is then far from what is usual, that is the end; else the refit goes on from
-        there, unless its next steps leave more and a specimen still deviates unusually. A search that explains less
-        than no effect does goes on, too: a fault in one record pulls the law of specimens that are alike. What leaves
-        more than the start does, with specimens that are usual there, is not taken.
+        With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap. So it
+        is with a strong gap, if the slopes at the start promise that no specimen will deviate unusually, and none does.
+        Else deviations of many standard deviations cost little, and the misfit counts only along what they do not
+        explain. So specimens that are alike come first there. Where one of them is then far from what is usual, that is
+        the end; else the refit goes on from there, unless its next steps leave more and a specimen still deviates
+        unusually. A search that explains less than no effect does goes on, too: a fault in one record pulls the law of
+        specimens that are alike. What leaves more than the start does, with specimens that are usual there, is not
+        taken.
         """
         if not self.base.scatter.any:
             return refit(self.base.problem.with_model(model), start, most_steps=steps)
@@ -197,28 +198,41 @@ class Refitting:
 
     def _refit(self, problem: Problem, start: FloatArray | Refit, steps: int, *, differentiable: bool = False) -> Refit:
         model, noises = problem.model, self.base.alike.noises
-        if isinstance(start, Refit):
-            first, misfit = start.parameters, start.chi_square
-        else:
-            first = start
-            with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
-                misfit = float(np.sum(problem.residual_and_jacobian(first)[0] ** 2))
+        first = start.parameters if isinstance(start, Refit) else start
+        with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
+            white, slopes = problem.residual_and_jacobian(first)
+            misfit = float(np.sum(white**2))
         weak = misfit <= len(self.base.whitened) + SEARCH.strong_gap
-        fit = refit(problem, start, most_steps=steps)
-        usual = self._furthest(fit) <= 1.0
-        if weak and not specimens_hold_the_gap(model, noises, first, fit.parameters):
-            return fit
-        if usual and (weak or self._explains(fit)):
-            return fit
+        promised = not weak and self._promises_usual(problem, first, white, slopes)
+        if weak or promised:
+            fit = refit(problem, start, most_steps=steps)
+            if self._furthest(fit) <= 1.0 and (weak or self._explains(fit)):
+                return fit
+            if weak and not specimens_hold_the_gap(model, noises, first, fit.parameters):
+                return fit
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
         if weak or not self._explains(there) or self._furthest(there) <= SEARCH.farthest_specimen:
             there = self._from_alike(there, alike, steps, differentiable=differentiable)
-        if misfit < min(there.chi_square, self.base.refit.chi_square):
+        if promised and misfit < min(there.chi_square, self.base.refit.chi_square):
             here = refit(problem, first, most_steps=0)
             return here if self._furthest(here) <= 1.0 else there
         return there
+
+    def _promises_usual(self, problem: Problem, parameters: FloatArray, white: FloatArray, slopes: FloatArray) -> bool:
+        """Whether one Gauss-Newton step leads to where specimens are nearly usual and some of the gap is explained.
+
+        `white` and `slopes` are the residual and the Jacobian there, in white coordinates.
+        """
+        if not (np.all(np.isfinite(white)) and np.all(np.isfinite(slopes))):
+            return False
+        step = -np.linalg.pinv(slopes.T @ slopes, hermitian=True) @ (slopes.T @ white)
+        if float(np.sum((white + slopes @ step) ** 2)) >= self.base.refit.chi_square:
+            return False
+        residual, jacobian = problem.model.residual_and_jacobian(parameters)
+        left = self.base.without_outliers(problem.model, residual + jacobian @ step)
+        return specimens_within(left, self.base.whitened.noises, SEARCH.nearly_usual)
 
     def _explains(self, fit: Refit) -> bool:
         """Whether it leaves less than no effect does."""

@@ -149,9 +149,12 @@ class BaseFit:
 
     def residual_of(self, fit: Refit) -> list[FloatArray]:
         """What a refit of these records leaves of each, outliers set apart, shape (n_r,) [MPa]."""
-        residual = fit.model.residual(fit.parameters)
+        return self.without_outliers(fit.model, fit.model.residual(fit.parameters))
+
+    def without_outliers(self, model: CampaignModel, residual: FloatArray) -> list[FloatArray]:
+        """A residual of these records, shape (n_samples,) [MPa], by record and without outliers, each (n_r,) [MPa]."""
         noises = self.whitened.noises
-        return [without_outliers(residual[fit.model.rows(noise.name)], noise.outliers) for noise in noises]
+        return [without_outliers(residual[model.rows(noise.name)], noise.outliers) for noise in noises]
 
     @property
     def misfit(self) -> tuple[float, float]:

@@ -49,7 +49,17 @@ def furthest_specimen(residuals: Sequence[FloatArray], noises: Sequence[NoiseMod
     noises : sequence of NoiseModel
         With the specimens' scatter.
     """
-    return max((float(np.linalg.norm(size)) / _usual(size) for _, size in _sizes(residuals, noises)), default=0.0)
+    return max(_lengths(residuals, noises), default=0.0)
+
+
+def specimens_within(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel], most: float) -> bool:
+    """Whether no specimen deviates further than `most`, as `furthest_specimen` counts; ends at the first that does."""
+    return all(length <= most for length in _lengths(residuals, noises))
+
+
+def _lengths(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> Iterator[float]:
+    """How far each specimen deviates, over what is usual."""
+    return (float(np.linalg.norm(size)) / _usual(size) for _, size in _sizes(residuals, noises))
 
 
 def _usual(size: FloatArray) -> float:
