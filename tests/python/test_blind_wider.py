@@ -6,7 +6,8 @@ import pytest
 import probation
 from probation_studies.blind.laboratory import wider
 from probation_studies.blind.laboratory.causes import AT_TEMPERATURES, KNOWN, OUTSIDE
-from probation_studies.blind.laboratory.trial import Setting
+from probation_studies.blind.laboratory.material import BaseLaw
+from probation_studies.blind.laboratory.trial import Setting, Trial
 
 
 def _nulls():
@@ -145,3 +146,13 @@ def _setting(*, temperatures):
         unloads=True,
         temperatures=temperatures,
     )
+
+
+@pytest.mark.parametrize("cause", AT_TEMPERATURES, ids=lambda cause: cause.change.__name__)
+def test_nothing_depends_on_a_temperature_by_an_amount_of_zero(cause):
+    time = np.linspace(0.0, 10.0, 11)
+    trial = Trial(BaseLaw(1800.0, 5.0, 1.7), time, 0.01 * time, 0.0, 1e-3, degrees=50.0)
+    cause.change(trial, 0.0, cause.draw(np.random.default_rng(1), _setting(temperatures=True)))
+    assert np.all(trial.log_factor == 0.0)
+    assert np.all(trial.modulus_factor == 1.0)
+    assert np.all(trial.network_factor == 1.0)

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from probation_studies.blind.laboratory.trial import Shape, Trial
 
 _KELVIN = 273.15
+_USUAL = 0.08
+"""-d ln tau_max / dT at the room's temperature [1/°C]."""
 
 
 def _activated(trial: Trial, amplitude: float, shape: Shape) -> None:
@@ -23,10 +25,10 @@ def _activated(trial: Trial, amplitude: float, shape: Shape) -> None:
 
 
 def _free_volume(trial: Trial, amplitude: float, shape: Shape) -> None:
-    """Williams, Landel and Ferry for the times; the network is entropic: its stress goes with the kelvins."""
+    """Williams, Landel and Ferry for the times; of a usual amount the network is entropic, in proportion to kelvins."""
     warmer = trial.degrees - ROOM_DEGREES
     trial.log_factor -= amplitude * warmer / (1.0 + warmer / shape["c2_degC"])
-    trial.network_factor *= 1.0 + warmer / (ROOM_DEGREES + _KELVIN)
+    trial.network_factor *= 1.0 + amplitude / _USUAL * warmer / (ROOM_DEGREES + _KELVIN)
 
 
 def _entangled(trial: Trial, amplitude: float, shape: Shape) -> None:
@@ -40,7 +42,7 @@ def _entangled(trial: Trial, amplitude: float, shape: Shape) -> None:
 CAUSES = (
     Cause(
         "temperature_dependence",
-        0.08,
+        _USUAL,
         lambda r, s: {"modulus_part": r.uniform(0.01, 0.06)},
         change=_activated,
         temperatures=True,
@@ -48,7 +50,7 @@ CAUSES = (
     ),
     Cause(
         "temperature_dependence",
-        0.08,
+        _USUAL,
         lambda r, s: {"c2_degC": r.uniform(80.0, 200.0)},
         change=_free_volume,
         temperatures=True,
@@ -56,7 +58,7 @@ CAUSES = (
     ),
     Cause(
         "temperature_dependence",
-        0.08,
+        _USUAL,
         lambda r, s: {"network_part": r.uniform(0.05, 0.3)},
         change=_entangled,
         temperatures=True,
