@@ -134,6 +134,15 @@ def test_a_frame_takes_the_travel_that_it_should(everything, form, amount, shape
     assert np.all(np.diff(force)[:late] > 0.0)
 
 
+def test_contacts_settle_where_the_travel_begins_with_next_to_nothing(everything):
+    test = everything[0]
+    strain = test.history.strain.copy()
+    strain[1] = 1e-9 * strain[-1]
+    begun = replace(test, history=replace(test.history, strain=strain))
+    force = observe(begun, [Effect(FORMS["machine_compliance", "contacts"], 2e-3, {"q": 0.7})])[1]
+    assert np.all(np.isfinite(force))
+
+
 def test_its_causes_are_of_the_catalogue_in_two_forms_each():
     assert set(CAUSES) < {each.name for each in effects()}
     assert {each.cause for each in RIVALS} < {each.name for each in effects()} - set(CAUSES)

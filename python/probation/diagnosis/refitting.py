@@ -178,13 +178,12 @@ class Refitting:
         """From one start; where specimens differ, not to where their deviations have to hold a gap.
 
         With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap. So it
-        is with a strong gap, if the slopes at the start promise that no specimen will deviate unusually, and none does.
-        Else deviations of many standard deviations cost little, and the misfit counts only along what they do not
-        explain. So specimens that are alike come first there. Where one of them is then far from what is usual, that is
-        the end; else the refit goes on from there, unless its next steps leave more and a specimen still deviates
-        unusually. A search that explains less than no effect does goes on, too: a fault in one record pulls the law of
-        specimens that are alike. What leaves more than the start does, with specimens that are usual there, is not
-        taken.
+        is with a strong gap, if the slopes at the start promise that no specimen will deviate unusually, none does, and
+        less is left than without an effect. Else deviations of many standard deviations cost little, and the misfit
+        counts only along what they do not explain. So specimens that are alike come first there. Where one of them is
+        then far from what is usual, that is the end; else the refit goes on from there, unless its next steps leave
+        more and a specimen still deviates unusually. A search that explains less than no effect does goes on, too: a
+        fault in one record pulls the law of specimens that are alike.
         """
         if not self.base.scatter.any:
             return refit(self.base.problem.with_model(model), start, most_steps=steps)
@@ -215,9 +214,6 @@ class Refitting:
         there = refit(problem, alike, most_steps=0)
         if weak or not self._explains(there) or self._furthest(there) <= SEARCH.farthest_specimen:
             there = self._from_alike(there, alike, steps, differentiable=differentiable)
-        if promised and misfit < min(there.chi_square, self.base.refit.chi_square):
-            here = refit(problem, first, most_steps=0)
-            return here if self._furthest(here) <= 1.0 else there
         return there
 
     def _promises_usual(self, problem: Problem, parameters: FloatArray, white: FloatArray, slopes: FloatArray) -> bool:
@@ -225,11 +221,15 @@ class Refitting:
 
         `white` and `slopes` are the residual and the Jacobian there, in white coordinates.
         """
-        if not (np.all(np.isfinite(white)) and np.all(np.isfinite(slopes))):
+        with np.errstate(over="ignore"):
+            if not np.isfinite(np.sum(white**2) + np.sum(slopes**2)):
+                return False
+        size = np.linalg.norm(slopes, axis=0)
+        scaled = slopes / np.where(size > 0.0, size, 1.0)
+        step = -np.linalg.pinv(scaled.T @ scaled, hermitian=True) @ (scaled.T @ white)
+        if not float(np.sum((white + scaled @ step) ** 2)) < self.base.refit.chi_square:
             return False
-        step = -np.linalg.pinv(slopes.T @ slopes, hermitian=True) @ (slopes.T @ white)
-        if float(np.sum((white + slopes @ step) ** 2)) >= self.base.refit.chi_square:
-            return False
+        step /= np.where(size > 0.0, size, 1.0)
         residual, jacobian = problem.model.residual_and_jacobian(parameters)
         left = self.base.without_outliers(problem.model, residual + jacobian @ step)
         return specimens_within(left, self.base.whitened.noises, SEARCH.nearly_usual)

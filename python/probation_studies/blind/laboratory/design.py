@@ -123,11 +123,17 @@ def draw_design(
 
 
 def _chamber(random: Generator, schedules: Sequence[Schedule], identified: Sequence[int]) -> tuple[float, ...]:
-    """Temperatures of the tests [°C], two or three of them; replicates stand at one, identified records at several."""
+    """Temperatures of the tests [°C], two or three of them; identified records stand at several.
+
+    Tests of one history stand at one, unless all tests are of it.
+    """
+    histories = [id(schedule) for schedule in schedules]
+    if len({histories[k] for k in identified}) == 1:
+        histories = list(range(len(schedules)))
     while True:
         levels = random.choice(_CHAMBER, int(random.integers(2, 4)), replace=False)
-        of_each = {id(schedule): float(random.choice(levels)) for schedule in schedules}
-        degrees = tuple(of_each[id(schedule)] for schedule in schedules)
+        of_each = {history: float(random.choice(levels)) for history in histories}
+        degrees = tuple(of_each[history] for history in histories)
         if len({degrees[k] for k in identified}) > 1:
             return degrees
 

@@ -170,7 +170,7 @@ def _wishes(random: Generator, stratum: str, wider: bool) -> list[Wish]:
 
 
 def _temperatures(wishes: Sequence[Wish]) -> set[bool]:
-    """Whether what is wished for needs tests at several temperatures (True) or at one (False); empty if it does not."""
+    """Whether what is wished for needs tests at several temperatures (True) or at one (False); empty: neither."""
     return {each for wish in wishes if (each := wish.cause.temperatures) is not None}
 
 
@@ -255,7 +255,7 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
             true_strain=strain,
             true_stress=stress,
             noise=noise,
-            temperature=_read(run.random, bench.degrees[k] + recorded.rise[k]) if bench.degrees else None,
+            temperature=_read(run.random, bench.degrees[k], len(test.time)) if bench.degrees else None,
         )
         for k, (name, test, out, strain, stress) in enumerate(
             zip(bench.ids, bench.tests, bench.held_out, recorded.strain, recorded.stress, strict=True)
@@ -264,9 +264,9 @@ def _sealed(split: str, seed: int, index: int, stratum: str, outcome: _Outcome) 
     return SealedCampaign(truth.name, records, bench.law.companion, truth, specimens_differ=bool(bench.specimens))
 
 
-def _read(random: Generator, degrees: FloatArray) -> FloatArray:
-    """What a thermometer on the specimen shows [°C]: it is off by a tenth, and noisy by another."""
-    off, noisy = _THERMOMETER * random.standard_normal(), _THERMOMETER * random.standard_normal(len(degrees))
+def _read(random: Generator, degrees: float, count: int) -> FloatArray:
+    """What a thermometer on the specimen shows at `count` samples [°C]: off by a tenth, and noisy by another."""
+    off, noisy = _THERMOMETER * random.standard_normal(), _THERMOMETER * random.standard_normal(count)
     return np.asarray(np.round(degrees + off + noisy, 2))
 
 

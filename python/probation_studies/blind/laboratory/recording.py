@@ -35,8 +35,6 @@ class Recorded:
         Whitened, projected: what the causes add, without noise.
     observed : ndarray, shape (n_all,)
         The same of the recorded stress less the base law along the recorded strain.
-    rise : list of ndarray, each (n,) [°C]
-        Of the specimens' temperatures.
     added_rms : list of float [MPa]
         What the causes add to each record.
     noise : list of ndarray, each (n,) [MPa]
@@ -47,7 +45,6 @@ class Recorded:
 
     strain: list[FloatArray]
     stress: list[FloatArray]
-    rise: list[FloatArray]
     clean: FloatArray
     observed: FloatArray
     added_rms: list[float]
@@ -65,13 +62,12 @@ def record_all(
 ) -> Recorded:
     """Run every test on the fine grid and record it."""
     drifts, drift_left = _nuisance_drifts(bank, noises)
-    strains, stresses, rises, added_rms, left = [], [], [], [], []
+    strains, stresses, added_rms, left = [], [], [], []
     clean, residual = {}, {}
     for k, each in enumerate(noises):
         causes = [one.acting for one in planted if one.record is None or one.record == k]
         plain, seen, specimen = undisturbed.stress[k], undisturbed.strain[k], bench.specimen(k)
-        truth, _, rise = _channels(bench, k, causes, noise) if causes else (plain, seen, np.zeros_like(plain))
-        rises.append(rise)
+        truth = _channels(bench, k, causes, noise)[0] if causes else plain
         added_rms.append(float(np.sqrt(np.mean((truth - plain) ** 2))))
         strain = _converted(seen + specimen.start + each.strain, noise.strain_quantum)
         stress = _converted(truth + each.rough + drifts[k], noise.quantum)
@@ -83,7 +79,6 @@ def record_all(
     return Recorded(
         strain=strains,
         stress=stresses,
-        rise=rises,
         clean=bank.column(clean),
         observed=bank.column(residual),
         added_rms=added_rms,
@@ -106,7 +101,7 @@ class Undisturbed:
 
 def run_undisturbed(bench: Bench, noise: Noise, bank: Bank) -> Undisturbed:
     """Run every test on the fine grid with nothing acting."""
-    stress, strain, _ = zip(*(_channels(bench, k, (), noise) for k in range(len(bench.tests))), strict=True)
+    stress, strain = zip(*(_channels(bench, k, (), noise) for k in range(len(bench.tests))), strict=True)
     added = {k: stress[k] - _own_stress(bench, k, strain[k] + bench.specimen(k).start) for k in bench.identified}
     return Undisturbed(list(stress), list(strain), float(np.linalg.norm(bank.column(added))))
 
@@ -135,19 +130,16 @@ def _nuisance_drifts(bank: Bank, noises: Sequence[RecordNoise]) -> tuple[list[Fl
     return drifts, float(np.max(np.abs(alike)))
 
 
-def _channels(
-    bench: Bench, k: int, causes: Sequence[Acting], noise: Noise
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Recorded stress of a record's own specimen, its strain and its rise, on the samples, before noise."""
+def _channels(bench: Bench, k: int, causes: Sequence[Acting], noise: Noise) -> tuple[FloatArray, FloatArray]:
+    """Recorded stress of a record's own specimen, and its strain, on the samples, before noise."""
     test, specimen = bench.tests[k], bench.specimen(k)
-    trial = bench.trial(k, fine=True, law=specimen.law(bench.law))
-    stress = recorded_stress([(trial, causes)])[0]
+    stress = recorded_stress([(bench.trial(k, fine=True, law=specimen.law(bench.law)), causes)])[0]
     stress = stress * (1.0 + specimen.section)
     time_constant = noise.filter_samples * float(np.min(np.diff(test.time)))
     stress, strain = (
         low_pass(test.fine_time, each, time_constant)[::REFINEMENT] for each in (stress, test.fine_strain)
     )
-    return stress, strain, trial.rise[::REFINEMENT]
+    return stress, strain
 
 
 def _base_stress(bench: Bench, k: int, strain: FloatArray) -> FloatArray:

@@ -85,8 +85,6 @@ class Trial:
         Share of the section that carries load.
     compliance : callable, optional
         Strain of the frame from the nominal stress.
-    rise : ndarray, shape (n,) [°C]
-        Of the specimen's temperature over the chamber's, once its stress was found.
     """
 
     law: BaseLaw
@@ -102,7 +100,6 @@ class Trial:
     network: FloatArray = field(init=False)
     area: FloatArray = field(init=False)
     extra: FloatArray = field(init=False)
-    rise: FloatArray = field(init=False)
     weight: FloatArray = field(init=False)
     overstress: FloatArray = field(init=False)
     activation: Activation | None = None
@@ -114,7 +111,7 @@ class Trial:
         self.strain = self.nominal.copy()
         self.log_factor, self.modulus_factor = np.zeros(n - 1), np.ones(n - 1)
         self.network_factor, self.area, self.extra = np.ones(n), np.ones(n), np.zeros(n)
-        self.weight, self.overstress, self.rise = WEIGHT, np.zeros_like(WEIGHT), np.zeros(n)
+        self.weight, self.overstress = WEIGHT, np.zeros_like(WEIGHT)
         self.measure()
 
     @property
@@ -196,7 +193,8 @@ class Cause:
         Whether it happens in a part of the record.
     needs_unloading : bool
     temperatures : bool, optional
-        Whether it needs tests at several temperatures, which are recorded, or tests at one, which is not.
+        True if it needs tests at several temperatures, which are recorded. False if it needs tests in one room whose
+        temperature is not: what warms the specimen would be seen, and the law would have to depend on the chamber, too.
     draws : int
         Shapes that a bank of signals needs of it.
     most : callable, optional
@@ -229,7 +227,7 @@ class Cause:
         return 3.0 * self.scale if self.most is None else min(3.0 * self.scale, self.most(setting))
 
     def shows(self, setting: Setting) -> bool:
-        """Whether there is something for it to act on, and it is not recorded as what it is not."""
+        """Whether there is something for it to act on, at the temperatures that it needs."""
         at_its_temperatures = self.temperatures is None or self.temperatures == setting.temperatures
         return at_its_temperatures and (setting.unloads or not self.needs_unloading)
 
@@ -261,8 +259,6 @@ def recorded_stress(trials: Sequence[tuple[Trial, Sequence[Acting]]]) -> list[Fl
     stresses = _solved([trial for trial, _ in trials])
     answers = []
     for (trial, causes), specimen_stress in zip(trials, stresses, strict=True):
-        if trial.heating is not None:
-            trial.rise = trial.heating.rise(trial.specimen(), specimen_stress / trial.area)
         stress = specimen_stress * np.exp(trial.nominal - trial.strain)  # made with the recorded strain
         for cause in causes:
             if cause.cause.record:

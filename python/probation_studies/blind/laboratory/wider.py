@@ -2,7 +2,7 @@
 
 Strain noise of 5e-6 to 1e-3 in every record, the first sample not exempt; in half of the campaigns specimens differ,
 in half of these two or three of them are tested alike. In a quarter, and wherever the law depends on it, tests stand at
-two or three temperatures, which every record states; the room drifts only where they do not.
+two or three temperatures, which every record states; the room drifts, and specimens heat themselves, elsewhere only.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _ROUNDS, _SETTLED = 200, 3e-8
 """Of the strain that a compliant frame leaves the specimen."""
-_LEAST_FORCE = 1e-6  # MPa, for the slope of contacts
+_LEAST_FORCE = 1e-30  # MPa, for the slope of contacts
 
 
 def observe(test: Test, effects: Sequence[Effect] = ()) -> tuple[FloatArray, FloatArray]:
@@ -57,16 +57,15 @@ def _given_way(
 ) -> tuple[Run, FloatArray]:
     """The run along what the frame leaves of the travel, and its force: Newton's method in every instant by itself.
 
-    The slope of the force is taken for that of the unrelaxed specimen, which is the most that it can be.
+    The slope of the force is taken for that of the unrelaxed specimen.
     """
     for _ in range(_ROUNDS):
         force = _pull(run, changes)
-        size = np.maximum(np.abs(force), _LEAST_FORCE)
-        left = free - amount * np.sign(force) * size**power
+        left = free - amount * np.sign(force) * np.abs(force) ** power
         missing = np.log(np.maximum(left, 0.1 * free)) - run.strain
         if np.abs(missing).max() < _SETTLED:
             return run, force
-        softer = amount * power * size ** (power - 1.0) * run.law.modulus / free
+        softer = amount * power * np.maximum(np.abs(force), _LEAST_FORCE) ** (power - 1.0) * run.law.modulus / free
         run = replace(run, strain=run.strain + missing / (1.0 + softer))
     raise RuntimeError(f"{run.test.name}: a compliant frame is not settled after {_ROUNDS} rounds")
 

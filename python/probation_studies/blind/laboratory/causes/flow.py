@@ -121,7 +121,7 @@ CAUSES = (
     Cause(
         "stress_activated_flow", 0.3, lambda r, s: {"stress_MPa": r.uniform(10.0, 30.0)}, change=_ree_eyring, draws=2
     ),
-    Cause("self_heating", 0.3, _plate, change=_slab),
+    Cause("self_heating", 0.3, _plate, change=_slab, temperatures=False),
     Cause("structural_softening", 0.5, _ageing, change=_rejuvenation),
     Cause("structural_softening", 0.3, _ageing, change=_stiff_rejuvenation),
     _room(

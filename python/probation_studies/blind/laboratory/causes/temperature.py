@@ -59,7 +59,7 @@ CAUSES = (
     Cause(
         "temperature_dependence",
         _USUAL,
-        lambda r, s: {"network_part": r.uniform(0.05, 0.3)},
+        lambda r, s: {"network_part": r.uniform(0.02, 0.1)},
         change=_entangled,
         temperatures=True,
         draws=2,
