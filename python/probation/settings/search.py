@@ -57,7 +57,8 @@ class SearchSettings:
         1.5,
         "of what is usual",
         "Deviations of a specimen, over those that are usual, up to which a refit of a strong gap goes on after "
-        "`steps_apart` steps, whatever the deviations hold.",
+        "`steps_apart` steps, whatever the deviations hold, and up to which the slopes at its start let it begin with "
+        "specimens that differ.",
     )
     line_or_step_level: float = chosen(
         0.01,
