@@ -179,7 +179,7 @@ class Refitting:
 
         With a weak gap a refit from the start is taken, unless a specimen deviates unusually and holds the gap. So it
         is with a strong gap, if the slopes at the start promise that no specimen will deviate unusually, none does, and
-        less is left than without an effect. Else deviations of many standard deviations cost little, and the misfit
+        no more is left than without an effect. Else deviations of many standard deviations cost little, and the misfit
         counts only along what they do not explain. So specimens that are alike come first there. Where one of them is
         then far from what is usual, that is the end; else the refit goes on from there, unless its next steps leave
         more and a specimen still deviates unusually. A search that explains less than no effect does goes on, too: a
@@ -225,18 +225,18 @@ class Refitting:
             if not np.isfinite(np.sum(white**2) + np.sum(slopes**2)):
                 return False
         size = np.linalg.norm(slopes, axis=0)
-        scaled = slopes / np.where(size > 0.0, size, 1.0)
+        size[size == 0.0] = 1.0
+        scaled = slopes / size
         step = -np.linalg.pinv(scaled.T @ scaled, hermitian=True) @ (scaled.T @ white)
         if not float(np.sum((white + scaled @ step) ** 2)) < self.base.refit.chi_square:
             return False
-        step /= np.where(size > 0.0, size, 1.0)
         residual, jacobian = problem.model.residual_and_jacobian(parameters)
-        left = self.base.without_outliers(problem.model, residual + jacobian @ step)
+        left = self.base.without_outliers(problem.model, residual + jacobian @ (step / size))
         return specimens_within(left, self.base.whitened.noises, SEARCH.nearly_usual)
 
     def _explains(self, fit: Refit) -> bool:
-        """Whether it leaves less than no effect does."""
-        return fit.chi_square < self.base.refit.chi_square
+        """Whether it leaves no more than no effect does."""
+        return fit.chi_square <= self.base.refit.chi_square
 
     def _from_alike(self, there: Refit, alike: FloatArray, steps: int, *, differentiable: bool) -> Refit:
         """From where specimens that are alike ended; there itself, where specimens that differ would hold the gap."""
