@@ -19,7 +19,7 @@ from bench.answered import answered
 from bench.in_turn import LEAST, judged
 from bench.one_line import one_line
 from bench.reweighed import gaps_of
-from probation.inference.calibration_check import Trust
+from probation.diagnosis.trust import Tempered
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind.layout import Layout
 
@@ -30,7 +30,7 @@ LOOK_ALIKES = "mimic"
 
 def tempered(gaps, power):
     """Log score, probability of the leading explanation, and whether it is right, of every gap."""
-    return [(each.log_score, each.ranked[0][1], each.right) for each in judged(gaps, Trust(power))]
+    return [(each.log_score, each.ranked[0][1], each.right) for each in judged(gaps, Tempered(power))]
 
 
 def without_a_gap(case, p_value, shy):

@@ -37,7 +37,10 @@ def main() -> None:
         low = min(getattr(each, name)[0] for each in found)
         high = max(getattr(each, name)[1] for each in found)
         print(f"{name:<13} {low:.3g} to {high:.3g}")
-    print(f"gap           {min(each.gap for each in found):.3g} to {max(each.gap for each in found):.3g}")
+    for name in ("gap", "scatter"):
+        low, high = (end(getattr(each, name) for each in found) for end in (min, max))
+        print(f"{name:<13} {low:.3g} to {high:.3g}")
+    print(f"law           {', '.join(sorted({each.law for each in found}))}")
 
 
 if __name__ == "__main__":

@@ -1,99 +1,91 @@
-"""How far evidence is to be trusted: tuned on all laboratories but one, scored on that one, in turn.
+"""How far evidence is to be trusted where forms are others: found on all laboratories but one, scored on that one.
 
 `python -m bench.in_turn FOLDER…`: sealed folders of several laboratories, answered; the truths are opened, and answers
-weighed anew by the log evidence that they state (`bench.reweighed`). For every laboratory those settings of `Trust` are
-taken that give the truths of the others' declared gaps the highest mean log probability; and the level of the answer
-sets that holds 95 % of these truths (conformal calibration; Vovk, Gammerman and Shafer 2005), for gaps that an unknown
-leads and for others by itself. What is printed is of the laboratory left out, beside the settings in force. A truth
-with less than 1e-4, or that an answer does not list, counts as 1e-4.
+weighed anew by the log evidence that they state (`bench.reweighed`). The six numbers of `OtherForms` are those that
+give the truths of the other laboratories' declared gaps the highest probability. What is printed is of the laboratory
+left out, beside the weights in force; the line below has those of all folders.
+
+Then the level of the answer sets that holds 95 % of the others' truths (conformal calibration; Vovk, Gammerman and
+Shafer 2005), in two strata: gaps of which the best explanation gains less than `PLAIN` log units, and the others. A
+truth with less than 1e-4, or that an answer does not list, counts as 1e-4. What held-out records refuse stays in.
 """
 
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass
-from itertools import product
+from dataclasses import astuple, dataclass, replace
+from functools import cached_property
 from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.optimize import minimize
 
+from bench.answered import answered
+from bench.laboratories import between, calibration_error, rate, scored
 from bench.one_line import one_line
-from bench.reweighed import Gap, gaps_of
-from probation.inference.calibration_check import CalibrationCheck, Trust
+from bench.reweighed import Gap, gap_in
+from probation.diagnosis.trust import OtherForms, trust_in
+from probation.inference.calibration_check import CalibrationCheck
 from probation.settings.evidence import EVIDENCE
-from probation_studies.blind.scores.answer import UNKNOWN
-from probation_studies.blind.scores.case import oracle_answer
+from probation_studies.blind.layout import Layout
+from probation_studies.blind.scores.intervals import Rate
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from probation.diagnosis.trust import Trust
     from probation_studies.blind.scores.answer import Names
+    from probation_studies.blind.scores.case import Case
 
 LEAST = 1e-4
-POWERS = (0.1, 0.2, 0.3, 0.4, 0.5)
-LEFT_BY_FORMS = (0.0, 0.05)
-DOUBTS = (0.0, 0.15, 0.3, 0.45, 0.6)
-IN_DOUBT = (0.01, 0.02, 0.05)
-STRONG_DOUBTS = (0.0, 0.15, 0.3)
-MOST_UNKNOWN = (0.1, 0.2, 0.4)
+PLAIN = 100.0
+START = OtherForms(fall=0.5, unknown_power=0.01, two=0.1, three=0.01, unknown=0.1, unknown_with_known=0.001)
 HEAD = (
-    "laboratory", "settings", "gaps", "mean log score", "said", "right", "level", "sets that hold the truth",
-    "their size", "of the oracle's",
+    "laboratory left out", "weights", "campaigns", "single, resolvable: named", "P of the truth",
+    "pairs, resolvable: named", "unknown found, √λ left of 8", "95 % sets that hold the gap's truth",
+    "their size, over the oracle's", "calibration error", "said", "right", "mean log score",
 )  # fmt: skip
-
-
-def settings() -> list[Trust]:
-    """Those that are compared."""
-    return [
-        Trust(power, left, doubt, in_doubt, strong, 0.005, most)
-        for power, left, doubt, in_doubt, strong, most in product(
-            POWERS, LEFT_BY_FORMS, DOUBTS, IN_DOUBT, STRONG_DOUBTS, MOST_UNKNOWN
-        )
-        if doubt or in_doubt == IN_DOUBT[0]
-    ]
+STRATA = (
+    "laboratory left out", "the best explanation gains", "gaps", "95 % sets hold", "their size",
+    "level that holds 95 % of the others'", "its sets hold", "their size", "truths that are listed",
+)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Judged:
-    """A gap's explanations under some settings, the most probable first.
+    """A gap's explanations under some weights, the most probable first.
 
     Attributes
     ----------
     gap : Gap
     ranked : list of tuple
         Explanations that were fitted.
-    truth : float
-        Probability that the answer states of it, of what was not tried as well.
+    stated : dict
+        What the answer states, of what was not tried as well.
     """
 
     gap: Gap
     ranked: list[tuple[Names, float]]
-    truth: float
+    stated: dict[Names, float]
 
     @classmethod
     def of(cls, gap: Gap, trust: Trust) -> Judged:
-        """By these settings."""
+        """By these weights."""
         found = gap.weighed(trust)
-        stated = gap.stated(found)
-        truth = sum(value for names, value in stated.items() if names in gap.case.admitted)
-        return cls(gap, [(each.effects, each.probability) for each in found], truth)
+        return cls(gap, [(each.effects, each.probability) for each in found], gap.stated(found))
 
     @property
     def log_score(self) -> float:
         """Log probability of the truth."""
-        return float(np.log(max(self.truth, LEAST)))
+        truth = sum(value for names, value in self.stated.items() if names in self.gap.case.admitted)
+        return float(np.log(max(truth, LEAST)))
 
     @property
     def right(self) -> bool:
         """Whether what leads is true."""
         return self.ranked[0][0] in self.gap.case.admitted
-
-    @property
-    def by_an_unknown(self) -> bool:
-        """Whether an unknown leads."""
-        return UNKNOWN in self.ranked[0][0]
 
     @property
     def before(self) -> float:
@@ -112,10 +104,79 @@ class Judged:
         """Of the set that holds so much."""
         return min(int(np.searchsorted(np.cumsum([value for _, value in self.ranked]), level)) + 1, len(self.ranked))
 
+    @property
+    def case(self) -> Case:
+        """The campaign as these weights answer it."""
+        held = tuple(names for names, _ in self.ranked[: self.size(EVIDENCE.credible_set)])
+        return replace(self.gap.case, answer=replace(self.gap.case.answer, probability=self.stated, answer_set=held))
+
+
+@dataclass(frozen=True)
+class Answered:
+    """The answered campaigns of a laboratory.
+
+    Attributes
+    ----------
+    laboratory : str
+    cases : list of Case
+    gaps : list of Gap
+        Declared ones that have a cause, outside the calibrated ranges.
+    """
+
+    laboratory: str
+    cases: list[Case]
+    gaps: list[Gap]
+
+    @cached_property
+    def others(self) -> list[Case]:
+        """Cases that no weights of other forms change."""
+        weighed = {id(gap.case) for gap in self.gaps}
+        return [case for case in self.cases if id(case) not in weighed]
+
+
+def answered_in(folders: Iterable[Path]) -> list[Answered]:
+    """By laboratory."""
+    found: dict[str, Answered] = {}
+    for folder in folders:
+        layout = Layout(folder)
+        name = str(layout.published()[0].get("laboratory", "own"))
+        own = found.setdefault(name, Answered(name, [], []))
+        for case, diagnosis in answered(layout):
+            own.cases.append(case)
+            if diagnosis is not None and case.causes and case.answer.gap and not diagnosis["calibration"]["inside"]:
+                own.gaps.append(gap_in(name, case, diagnosis))
+    return list(found.values())
+
 
 def judged(gaps: Iterable[Gap], trust: Trust | None = None) -> list[Judged]:
-    """All of them; by the settings in force, if there are none."""
-    return [Judged.of(gap, trust or CalibrationCheck(gap.inside).trust) for gap in gaps]
+    """All of them; by the weights in force, if there are none."""
+    return [Judged.of(gap, trust or trust_in(CalibrationCheck(gap.inside))) for gap in gaps]
+
+
+def found_on(gaps: Sequence[Gap]) -> OtherForms:
+    """The weights that give the truths of these gaps the highest probability, where they were fitted.
+
+    What gaps tell nothing of stays where it is: beforehand the logarithms have a standard deviation of 1 about `START`.
+    """
+    told = [gap for gap in gaps if any(names in gap.log_evidence for names in gap.case.admitted)]
+
+    def weights(numbers: np.ndarray) -> OtherForms:
+        return OtherForms(*np.exp(numbers))
+
+    def loss(numbers: np.ndarray) -> float:
+        off = numbers - start
+        return 0.5 * float(off @ off) - sum(_log_chance(gap, weights(numbers)) for gap in told)
+
+    start = np.log(astuple(START))
+    return weights(minimize(loss, start).x)
+
+
+def _log_chance(gap: Gap, trust: OtherForms) -> float:
+    """Log probability of the truth among the explanations that were fitted, "no effect" not among them."""
+    scores = trust.log_weights(gap.log_evidence, gap.log_odds, gap.count)
+    some = [(names, score) for names, score in zip(gap.log_evidence, scores, strict=True) if names]
+    true = np.logaddexp.reduce([score for names, score in some if names in gap.case.admitted])
+    return float(true - np.logaddexp.reduce([score for _, score in some]))
 
 
 def level_of(found: Sequence[Judged]) -> float:
@@ -124,51 +185,74 @@ def level_of(found: Sequence[Judged]) -> float:
     return min(np.nextafter(sorted(each.before for each in found)[rank - 1], 2.0), 1.0) if rank <= len(found) else 1.0
 
 
-def row(laboratory: str, name: str, own: Sequence[Judged], level: Sequence[float]) -> list[str]:
-    """What the settings come to there, with the level of each gap's answer set."""
-    held = [each.before < most for each, most in zip(own, level, strict=True)]
+def row(own: Answered, name: str, found: Sequence[Judged]) -> list[str]:
+    """Scores of a laboratory under some weights."""
+    scores = scored(own.laboratory, [*own.others, *(each.case for each in found)])["scores"]["answers"]
+    resolvable, sets = scores["resolvable_by_stratum"], scores["gaps"]["answer_set"]
+    single, size, least = resolvable["single"], sets["mean_size"], sets["oracle_mean_size"]
+    return [
+        own.laboratory,
+        name,
+        str(len(own.cases)),
+        rate(single["top1"]),
+        between(single["probability_on_truth"], single["probability_on_truth_interval95"]),
+        rate(resolvable["pair"]["top1"]),
+        rate(scores["unknown"]["found_clear"]),
+        rate(sets["coverage"]),
+        between(size / least if size and least else None, sets.get("over_oracle", {}).get("interval95")),
+        calibration_error(scores["reliability"]),
+        f"{np.mean([each.ranked[0][1] for each in found]):.2f}",
+        f"{np.mean([each.right for each in found]):.2f}",
+        f"{np.mean([each.log_score for each in found]):.2f}",
+    ]
+
+
+def gain(gap: Gap) -> float:
+    """Log evidence of the best explanation over none."""
+    return max(gap.log_evidence.values()) - gap.log_evidence[()]
+
+
+def stratum_row(laboratory: str, name: str, own: Sequence[Judged], level: float) -> list[str]:
+    """What sets of 95 % and of a level hold in a stratum."""
+
+    def held(most: float) -> list[str]:
+        told = rate(Rate.of(each.before < most for each in own).plain())
+        return [told, f"{np.mean([each.size(most) for each in own]):.1f}"]
+
+    listed = rate(Rate.of(each.before < 1.0 for each in own).plain())
     return [
         laboratory,
         name,
         str(len(own)),
-        f"{np.mean([each.log_score for each in own]):.2f}",
-        f"{np.mean([each.ranked[0][1] for each in own]):.2f}",
-        f"{np.mean([each.right for each in own]):.2f}",
-        " and ".join(f"{100.0 * each:.2f} %" for each in sorted({*level})),
-        f"{100.0 * np.mean(held):.0f} %",
-        f"{np.mean([each.size(most) for each, most in zip(own, level, strict=True)]):.1f}",
-        f"{np.mean([len(oracle_answer(each.gap.case.truth).answer_set) for each in own]):.1f}",
+        *held(EVIDENCE.credible_set),
+        f"{100.0 * level:.1f} %",
+        *held(level),
+        listed,
     ]
 
 
-def said(trust: Trust) -> str:
-    """Settings in one line."""
+def said(trust: OtherForms) -> str:
+    """Weights in one line."""
     return (
-        f"β {trust.power:g}, forms {trust.left_by_forms:g}, {trust.doubt:g} at {trust.power_in_doubt:g}, "
-        f"{trust.strong_doubt:g} at {trust.power_in_strong_doubt:g}, unknown {trust.most_unknown:g}"
+        f"a {trust.fall:.2f}, b {trust.unknown_power:.2g}, two {trust.two:.2g}, three {trust.three:.2g}, "
+        f"unknown {trust.unknown:.2g}, with known {trust.unknown_with_known:.2g}"
     )
 
 
-def rows(gaps: Sequence[Gap]) -> list[list[str]]:
-    """Two of each laboratory: the settings in force, and those of the others with their conformal levels."""
-    of = {
-        name: [gap for gap in gaps if gap.laboratory == name] for name in dict.fromkeys(gap.laboratory for gap in gaps)
-    }
-    compared = settings()
-    scores = {
-        name: np.array([[each.log_score for each in judged(own, trust)] for trust in compared])
-        for name, own in of.items()
-    }
-    found = []
-    for name, own in of.items():
-        found.append(row(name, "in force", judged(own), [CalibrationCheck(gap.inside).covered for gap in own]))
-        others = np.hstack([scores[other] for other in of if other != name])
-        best = compared[int(np.argmax(others.mean(axis=1)))]
-        theirs = judged((gap for gap in gaps if gap.laboratory != name), best)
-        levels = [level_of([each for each in theirs if each.by_an_unknown == by]) for by in (False, True)]
-        tuned = judged(own, best)
-        found.append(row(name, said(best), tuned, [levels[each.by_an_unknown] for each in tuned]))
-    return found
+def tables(laboratories: Sequence[Answered]) -> tuple[list[list[str]], list[list[str]]]:
+    """Scores of each laboratory by the weights in force and by those of the others; sets of each stratum."""
+    scores, strata = [], []
+    for own in laboratories:
+        theirs = [gap for other in laboratories if other is not own for gap in other.gaps]
+        trust = found_on(theirs)
+        here, there = judged(own.gaps, trust), judged(theirs, trust)
+        scores += [row(own, "in force", judged(own.gaps)), row(own, f"of the others: {said(trust)}", here)]
+        for name, plain in ((f"less than {PLAIN:g}", False), (f"{PLAIN:g} or more", True)):
+            inner = [each for each in here if (gain(each.gap) >= PLAIN) == plain]
+            if inner:
+                level = level_of([each for each in there if (gain(each.gap) >= PLAIN) == plain])
+                strata.append(stratum_row(own.laboratory, name, inner, level))
+    return scores, strata
 
 
 def main() -> None:
@@ -176,11 +260,15 @@ def main() -> None:
     parser.add_argument("folders", nargs="+", type=Path, help="sealed folders of several laboratories, answered")
     folders = parser.parse_args().folders
     with one_line(parser):
-        gaps = [gap for folder in folders for gap in gaps_of(folder)]
-    if len({gap.laboratory for gap in gaps}) < 2:
+        laboratories = answered_in(folders)
+    laboratories = [each for each in laboratories if each.gaps]
+    if len(laboratories) < 2:
         parser.error("found gaps of one laboratory, expected those of two at least: one is left out")
-    lines = [HEAD, ("---",) * len(HEAD), *rows(gaps)]
-    print("\n".join(f"| {' | '.join(line)} |" for line in lines))
+    scores, strata = tables(laboratories)
+    whole = found_on([gap for own in laboratories for gap in own.gaps])
+    for lines in ([HEAD, ("---",) * len(HEAD), *scores], [STRATA, ("---",) * len(STRATA), *strata]):
+        print("\n".join(f"| {' | '.join(line)} |" for line in lines), end="\n\n")
+    print(f"On all: {said(whole)}.")
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ none is refused by a record that was held out.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from math import log
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,6 @@ from probation.diagnosis.probabilities import (
     chances_of,
     effect_count,
     given_a_gap,
-    is_periodic,
     with_unknown_leading,
     with_unseen,
 )
@@ -31,8 +30,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
+    from probation.diagnosis.trust import Trust
     from probation.effects.effect import Effect
-    from probation.inference.calibration_check import Trust
     from probation_studies.blind.scores.answer import Names
 
 KNOWN = {effect.name: effect for effect in effects()}
@@ -52,8 +51,6 @@ class Gap:
         Whether it lies within the calibrated ranges.
     log_evidence : dict
         Of every explanation that was fitted, over that of none.
-    periodic : frozenset of str
-        Effects in a periodic form.
     """
 
     laboratory: str
@@ -61,7 +58,6 @@ class Gap:
     p_value: float
     inside: bool
     log_evidence: dict[Names, float]
-    periodic: frozenset[str]
 
     @cached_property
     def considered(self) -> list[Effect]:
@@ -90,19 +86,14 @@ class Gap:
 
     def weighed(self, trust: Trust) -> list[Weighed]:
         """Explanations that were fitted, the most probable first: the answer set is taken from them."""
-        found = self._judged(trust)
-        if trust.left_by_forms and UNKNOWN in found[0].effects:
-            found = self._judged(replace(trust, left_by_forms=0.0))
+        chances = chances_of(self.log_evidence, self.log_odds, self.count, trust)
+        found = [Weighed(names, chance, None) for names, chance in chances.items()]
+        found = given_a_gap(sorted(found, key=lambda each: -each.probability), self.p_value)
         return with_unknown_leading(found) if found[0].effects == self.left_to_an_unknown else found
 
     def stated(self, found: list[Weighed]) -> dict[Names, float]:
         """Probabilities as an answer states them: with pairs whose second effect was not tried."""
         return {each.effects: each.probability for each in with_unseen(found, self.considered)}
-
-    def _judged(self, trust: Trust) -> list[Weighed]:
-        chances = chances_of(self.log_evidence, self.log_odds, self.count, trust, periodic=self.periodic)
-        found = [Weighed(names, chance, None) for names, chance in chances.items()]
-        return given_a_gap(sorted(found, key=lambda each: -each.probability), self.p_value)
 
 
 def gaps_of(folder: Path) -> list[Gap]:
@@ -127,11 +118,5 @@ def gap_in(laboratory: str, case: Case, diagnosis: Mapping[str, Any]) -> Gap:
     causes = [each for each in diagnosis["causes"] if each.get("log_evidence") is not None]
     if not causes:
         raise InputError(f"{case.name}: found no log_evidence in its answer, expected it; solve with this version")
-    periodic = frozenset(
-        name
-        for each in causes
-        for name in each["effects"]
-        if name in KNOWN and any(is_periodic(form) and form.name in each["forms"] for form in KNOWN[name].forms)
-    )
     evidence = {tuple(sorted(each["effects"])): float(each["log_evidence"]) for each in causes}
-    return Gap(laboratory, case, diagnosis["gap"]["p_value"], diagnosis["calibration"]["inside"], evidence, periodic)
+    return Gap(laboratory, case, diagnosis["gap"]["p_value"], diagnosis["calibration"]["inside"], evidence)

@@ -7,12 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bench import laboratories
-from bench.in_turn import Judged, level_of, row, rows
+from bench.in_turn import START, Answered, Judged, found_on, level_of, stratum_row, tables
 from bench.laboratories import said
 from bench.reweighed import gap_in
 
 import probation
-from probation.inference.calibration_check import EXACT, CalibrationCheck, Trust
+from campaigns.made_up_truth import made_up_truth
+from probation.diagnosis.trust import Tempered, trust_in
+from probation.inference.calibration_check import CalibrationCheck
 from probation.records.record import Noise, Record
 from probation_studies.blind.scores.answer import read_answer
 from probation_studies.blind.scores.case import Case
@@ -34,14 +36,12 @@ def planted():
 @pytest.fixture(scope="module")
 def gap():
     diagnosis = json.loads(probation.diagnose(planted(), design=False).to_json())
-    truth = {"stratum": "single", "causes": [{"effect": "force_gain"}], "explanation": [*TRUTH], "mimics": []}
-    truth["oracle"] = {"posterior": {"+".join(TRUTH): 1.0}, "right": 1.0}
+    truth = made_up_truth(TRUTH)
     return gap_in("university", Case("gain", truth, read_answer(diagnosis, "gain")), diagnosis)
 
 
 def test_weighed_by_the_settings_in_force_an_answer_is_what_it_states(gap):
-    trust = CalibrationCheck(gap.inside).trust
-    stated = gap.stated(gap.weighed(trust))
+    stated = gap.stated(gap.weighed(trust_in(CalibrationCheck(gap.inside))))
     assert stated == pytest.approx(gap.case.answer.probability, abs=1e-9)
 
 
@@ -53,9 +53,9 @@ def test_log_evidence_is_relative_to_the_base_law_and_null_for_what_was_not_fitt
 
 
 def test_evidence_to_a_lower_power_says_less(gap):
-    told = [dict(Judged.of(gap, Trust(power)).ranked)[TRUTH] for power in (1.0, 0.2, 0.02)]
+    told = [dict(Judged.of(gap, Tempered(power)).ranked)[TRUTH] for power in (1.0, 0.2, 0.02)]
     assert told == sorted(told, reverse=True)
-    assert Judged.of(gap, EXACT).right
+    assert Judged.of(gap, Tempered()).right
 
 
 def test_how_sure_and_how_right_is_of_declared_gaps_alone(gap):
@@ -99,16 +99,48 @@ def test_a_conformal_level_holds_as_many_as_it_says():
 
 
 def test_a_set_holds_what_takes_it_over_its_level(gap):
-    """The truth with 0.99 is the whole set of 98 %; one that is not listed is held by none."""
-    certain = Judged(gap, [(TRUTH, 0.99), (("damage",), 0.01)], 0.99)
-    lost = replace(certain, ranked=[(("damage",), 1.0)])
+    """The truth with 0.99 is the whole set of 95 %; one that is not listed is held by none."""
+    certain = Judged(gap, [(TRUTH, 0.99), (("damage",), 0.01)], {TRUTH: 0.99, ("damage",): 0.01})
+    lost = replace(certain, ranked=[(("damage",), 1.0)], stated={("damage",): 1.0})
     assert (certain.before, certain.size(0.98), lost.before) == (0.0, 1, 1.0)
-    assert row("lab", "settings", [certain, lost], [0.98, 0.98])[7] == "50 %"
+    assert (certain.case.covered, lost.case.covered) == (True, False)
+    found = stratum_row("lab", "100 or more", [certain, lost], 1.0)
+    assert found[3].startswith("50 % of 2")
+    assert found[-1].startswith("50 % of 2")
+
+
+def drawn(rng, gap, fall, count=300):
+    """Gaps of ten rivals each, 0 to 500 log units behind, the true one drawn by (1 + D)^-fall."""
+    found = []
+    for _ in range(count):
+        behind = np.append(0.0, 500.0 * rng.uniform(size=9) ** 3)
+        names = [(f"effect_{letter}",) for letter in "abcdefghij"]
+        chance = (1.0 + behind) ** -fall
+        true = names[rng.choice(10, p=chance / chance.sum())]
+        evidence = {(): 0.0} | dict(zip(names, 600.0 - behind, strict=True))
+        answer = replace(gap.case.answer, parameters={})
+        case = replace(gap.case, truth={**gap.case.truth, "explanation": [*true]}, answer=answer)
+        found.append(replace(gap, case=case, log_evidence=evidence))
+    return found
+
+
+@pytest.mark.parametrize("fall", [0.4, 0.8])
+def test_the_weights_that_made_the_truths_are_found(gap, fall):
+    """300 gaps: the fall to its standard error, a tenth; odds that nothing was told of stay where they are."""
+    found = found_on(drawn(np.random.default_rng(1), gap, fall))
+    assert found.fall == pytest.approx(fall, abs=0.1)
+    assert found.two == pytest.approx(START.two, rel=1e-3)
 
 
 def test_every_laboratory_is_scored_by_what_the_others_tell(gap):
-    gaps = [replace(gap, laboratory=name) for name in ("a", "a", "b", "c")]
-    found = rows(gaps)
-    assert [line[0] for line in found] == ["a", "a", "b", "b", "c", "c"]
-    assert [line[2] for line in found[::2]] == ["2", "1", "1"]
-    assert all(line[1] == "in force" for line in found[::2])
+    rng = np.random.default_rng(2)
+    laboratories = []
+    for name, fall in (("a", 0.3), ("b", 0.9)):
+        gaps = [replace(each, laboratory=name) for each in drawn(rng, gap, fall, 60)]
+        laboratories.append(Answered(name, [each.case for each in gaps], gaps))
+    scores, strata = tables(laboratories)
+    assert [line[0] for line in scores] == ["a", "a", "b", "b"]
+    assert [line[1].split(" ")[0] for line in scores] == ["in", "of", "in", "of"]
+    falls = [float(line[1].split(" a ")[1].split(",")[0]) for line in scores[1::2]]
+    assert falls[0] > falls[1]  # of the other one
+    assert [line[:3] for line in strata] == [["a", "100 or more", "60"], ["b", "100 or more", "60"]]

@@ -9,6 +9,7 @@ import pytest
 from bench.laboratories import HEAD, contents_of, head_by, row, rows_by
 from scipy.stats import binom
 
+from campaigns.made_up_truth import made_up_truth
 from probation.cli import main
 from probation.errors import InputError
 from probation.pool import run_all
@@ -25,35 +26,6 @@ from probation_studies.blind.scores.where import overlap
 from probation_studies.blind.seal import open_truth, read_truth, seal_truth
 from probation_studies.blind.solve import solve_split
 from probation_studies.blind.solvers import solver_named
-
-
-def _truth(explanation=(), stratum=None, detectability=15.0, mimics="", localised=False, everywhere=True):
-    stratum = stratum or ("none" if not explanation else "single" if len(explanation) == 1 else "pair")
-    causes = [
-        {
-            "effect": name,
-            "records": ["a"],
-            "everywhere": everywhere,
-            "localised": localised,
-            "left_by_best_other": detectability,
-            "windows": [{"record": "a", "time_s": [20.0, 60.0], "true_strain": [0.1, 0.3]}],
-        }
-        for name in explanation
-    ]
-    return {
-        "stratum": stratum,
-        "seed": 3,
-        "explanation": list(explanation),
-        "mimics": mimics,
-        "detectability": detectability if explanation else 0.0,
-        "causes": causes,
-        "oracle": {"right": 1.0, "resolvable": True, "posterior": {"+".join(explanation): 1.0}},
-        "records": {
-            "a": {"duration_s": 100.0, "history": "ramp", "role": "identify"},
-            "b": {"duration_s": 50.0, "history": "ramp", "role": "identify"},
-        },
-        "base": {"unrelaxed_modulus_MPa": 2000.0},
-    }
 
 
 def _diagnosis(probabilities, answer_set=None, verdict=None, records=("a",), where=()):
@@ -85,10 +57,10 @@ def _cases(truths, answer=_perfect):
 
 
 MIXED = (
-    [_truth() for _ in range(40)]
-    + [_truth((name,), localised=name == "grip_slip", everywhere=False) for name in ("damage", "grip_slip") * 10]
-    + [_truth(("damage", "force_offset")) for _ in range(10)]
-    + [_truth(("unknown",), "outside") for _ in range(10)]
+    [made_up_truth() for _ in range(40)]
+    + [made_up_truth((name,), localised=name == "grip_slip", everywhere=False) for name in ("damage", "grip_slip") * 10]
+    + [made_up_truth(("damage", "force_offset")) for _ in range(10)]
+    + [made_up_truth(("unknown",), "outside") for _ in range(10)]
 )
 
 
@@ -112,7 +84,7 @@ def test_a_perfect_solver_scores_everything():
 
 def test_an_oracles_set_has_one_level_in_every_laboratory():
     """Of 0.6, 0.33, 0.05 and 0.02 three are needed for 0.95, whatever set a laboratory wrote down."""
-    truth = _truth(("damage",))
+    truth = made_up_truth(("damage",))
     posterior = {"": 0.02, "damage": 0.6, "prestress": 0.33, "damage+prestress": 0.05}
     truth["oracle"] |= {"posterior": posterior, "answer_set": [["damage"], ["prestress"]]}
     case = Case("one", truth, read_answer(_diagnosis({("damage",): 0.9, (): 0.1}), "made up"))
@@ -129,7 +101,9 @@ def test_false_alarms_are_counted_apart_where_specimens_differ_and_where_strains
     kinds += ({"noise": {"strain": 1e-4, "scatter_tau": 0.01}}, {"scatter": None, "noise": {"scatter_tau": 0.0}})
     alarm = _diagnosis({("damage",): 0.9, ("unknown",): 0.1})
     shown = alarm | {"scatter": {"alpha": {"relative": 0.02, "source": "replicates"}}}
-    found = board(_cases([_truth() | kind for kind in kinds], lambda truth: shown if truth.get("scatter") else alarm))
+    found = board(
+        _cases([made_up_truth() | kind for kind in kinds], lambda truth: shown if truth.get("scatter") else alarm)
+    )
     assert found["by_stratum"]["none"]["n"] == 4
     assert {name: each["n"] for name, each in found["false_alarms_by_kind"].items()} == {
         "alike": 2,
@@ -141,7 +115,7 @@ def test_false_alarms_are_counted_apart_where_specimens_differ_and_where_strains
 
 
 def test_a_truth_need_not_say_what_is_left_of_every_record():
-    truth = _truth(("damage",)) | {"noise_drawn_MPa": {"a": 0.04}}
+    truth = made_up_truth(("damage",)) | {"noise_drawn_MPa": {"a": 0.04}}
     truth["records"]["b"]["role"] = "held-out"
     case = _cases([truth])[0]
     assert case.squares("noise_drawn_MPa", "identify") == pytest.approx(0.04**2)
@@ -178,8 +152,8 @@ def _answered(folder, truths):
 
 
 def test_several_folders_have_a_row_of_all_their_campaigns_together(tmp_path):
-    ours = _answered(tmp_path / "university", [_truth(("damage",))] * 4)
-    other = _answered(tmp_path / "industry", [_truth(("damage",)) | {"seed": 5}] * 6)
+    ours = _answered(tmp_path / "university", [made_up_truth(("damage",))] * 4)
+    other = _answered(tmp_path / "industry", [made_up_truth(("damage",)) | {"seed": 5}] * 6)
     lines = [dict(zip(HEAD, row(content), strict=True)) for content in contents_of([ours, other])]
     assert [line["laboratory"] for line in lines] == ["university", "industry", "all"]
     assert [line["seeds"] for line in lines] == ["3", "5", "3, 5"]
@@ -192,7 +166,11 @@ def test_several_folders_have_a_row_of_all_their_campaigns_together(tmp_path):
 def test_scores_by_strain_noise_count_every_campaign_once():
     """Nulls at 1e-5 and with nothing said, causes at 1e-4, all declared damage; the last class is empty."""
     quiet, usual = {"noise": {"strain": 1e-5}}, {"noise": {"strain": 1e-4}}
-    truths = [_truth() | quiet, _truth(), *(_truth((name,)) | usual for name in ("damage", "self_heating", "damage"))]
+    truths = [
+        made_up_truth() | quiet,
+        made_up_truth(),
+        *(made_up_truth((name,)) | usual for name in ("damage", "self_heating", "damage")),
+    ]
     content = {"seeds": [3], "scores": {"answers": board(_cases(truths, lambda _: _diagnosis({("damage",): 1.0})))}}
     lines = rows_by("by_strain_noise", content)
     assert all(len(line) == len(head_by("by_strain_noise")) for line in lines)
@@ -206,9 +184,10 @@ def test_scores_by_strain_noise_count_every_campaign_once():
 def test_scores_by_strength_count_causes_alone():
     """A null, and causes of a √λ of 10, 20 and 300, all declared damage."""
     causes = [
-        _truth((name,)) | {"detectability": size} for name, size in (("damage", 10), ("damage", 20), ("lag", 300))
+        made_up_truth((name,)) | {"detectability": size}
+        for name, size in (("damage", 10), ("damage", 20), ("lag", 300))
     ]
-    cases = _cases([_truth(), *causes], lambda _: _diagnosis({("damage",): 1.0}))
+    cases = _cases([made_up_truth(), *causes], lambda _: _diagnosis({("damage",): 1.0}))
     lines = rows_by("by_strength", {"seeds": [3], "scores": {"answers": board(cases)}})
     assert [line[2] for line in lines] == ["to 10", "to 30", "above"]
     assert [line[4].split(" (")[0] for line in lines] == ["100 % of 1", "100 % of 1", "0 % of 1"]
@@ -216,7 +195,7 @@ def test_scores_by_strength_count_causes_alone():
 
 def test_shuffled_answers_score_chance():
     """Of a balanced two-way truth, right by chance: k of 400 within six standard deviations of 200."""
-    truths = [_truth((name,)) for name in ("damage", "self_heating") * 200]
+    truths = [made_up_truth((name,)) for name in ("damage", "self_heating") * 200]
     right = sum(case.right for case in shuffled(_cases(truths)))
     assert abs(right - 200) < 6 * 10.0
 
@@ -241,7 +220,7 @@ def test_intervals_are_those_of_clopper_and_pearson():
 def test_an_honest_solver_is_calibrated_and_a_boaster_is_not():
     def cases(said, right):
         other = ("damage",)
-        truths = [_truth() if hit else _truth(other) for hit in right]
+        truths = [made_up_truth() if hit else made_up_truth(other) for hit in right]
         return [Case("c", t, Answer({(): said, ("unknown",): 1.0 - said}, {}, (), gap=False)) for t in truths]
 
     right = [k % 10 < 7 for k in range(200)]
@@ -256,7 +235,7 @@ def test_the_calibration_error_of_a_calibrated_solver_stays_below_its_limit_in_9
     random, held = np.random.default_rng(3), []
     for _ in range(40):
         said = random.uniform(0.55, 0.95, size=26)
-        truths = [_truth() if hit else _truth(("damage",)) for hit in random.uniform(size=26) < said]
+        truths = [made_up_truth() if hit else made_up_truth(("damage",)) for hit in random.uniform(size=26) < said]
         answers = [Answer({(): p, ("unknown",): 1.0 - p}, {}, (), gap=False) for p in said]
         found = reliability([Case("c", truth, answer) for truth, answer in zip(truths, answers, strict=True)])
         held.append(found["ece"] <= found["ece_limit95"])
@@ -279,14 +258,14 @@ def test_overlap_weighs_records_by_their_duration():
 
 
 def test_a_mimic_may_be_called_what_it_mimics_in_the_answer_set_only():
-    truth = _truth(("unknown",), "mimic", mimics="damage")
+    truth = made_up_truth(("unknown",), "mimic", mimics="damage")
     case = _cases([truth], lambda _: _diagnosis({("damage",): 0.9, ("unknown",): 0.1}))[0]
     assert not case.right
     assert case.covered
 
 
 def test_a_failed_answer_is_wrong_in_everything():
-    case = Case("c", _truth(), NO_ANSWER)
+    case = Case("c", made_up_truth(), NO_ANSWER)
     assert (case.right, case.covered, case.probability) == (False, False, 0.0)
 
 

@@ -73,12 +73,12 @@ def diagnosed(planted):
 
 def named(planted, name):
     """The diagnosis, in which this effect must close nearly all of the gap alone: forms that are not the catalogue's
-    leave a little, of which other effects may take their part. Outside what was calibrated forms are doubted.
+    leave a little, of which other effects may take their part. Outside what was calibrated evidence counts for less.
     """
     found = diagnosed(planted)
     first = found.effects[0]
     assert (first.name, first.named) == (name, True), found.headline
-    assert first.probability > 0.75
+    assert first.probability > 0.65
     assert first.alone > 0.9
     return found
 

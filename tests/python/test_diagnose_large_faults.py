@@ -157,7 +157,7 @@ def test_behind_a_soft_frame_damage_is_found_and_the_headline_names_both(damage_
 
 
 def test_damage_behind_a_soft_frame_is_probable(damage_behind_a_soft_frame):
-    assert damage_behind_a_soft_frame.best.probability > 0.75  # outside what was calibrated forms are doubted
+    assert damage_behind_a_soft_frame.best.probability > 0.75  # outside what was calibrated evidence counts for less
 
 
 @pytest.mark.parametrize("slack", [0.0, 0.25 * ELONGATION])

@@ -179,11 +179,11 @@ def test_of_rivals_the_one_that_spoils_a_prediction_falls():
     wrong, harmless = with_cause(base, "rate_dependent_relaxation"), with_cause(base, "force_gain", "slow")
     assert made_worse(harmless, base) == ()
     weighed = [Weighed(wrong.effects, 0.7, wrong), Weighed(harmless.effects, 0.3, harmless)]
-    ranked = HeldToAccount(base, seed=0).ranked(weighed, 0.95)
+    ranked = HeldToAccount(base, seed=0).ranked(weighed)
     assert [each.effects for each in ranked] == [harmless.effects, wrong.effects]
     assert sum(each.probability for each in ranked) == pytest.approx(1.0)
     alone = weighed[:1]
-    assert HeldToAccount(base, seed=0).ranked(alone, 0.95) == alone
+    assert HeldToAccount(base, seed=0).ranked(alone) == alone
 
 
 def test_an_explanation_that_makes_a_held_out_record_worse_is_not_explained():

@@ -95,12 +95,14 @@ def test_two_grip_speeds_together_bring_it_down_to_the_noise():
 def test_a_wavy_bias_is_told_beside_the_missing_relation():
     """1.5 MPa at its largest, about 0.5 rms: what is left is of that size, and the headline says that it is there.
 
-    A noise that holds such a wave leaves other effects near: a stress-activated flow is 19 log units behind.
+    A noise that holds such a wave leaves other effects near: a stress-activated flow is 19 log units behind. Where
+    forms may be wrong by as much as the wave is large, such a distance says little.
     """
     found = diagnosed(record(3, "P2", "identify", bias=1.5), record(3, "P1", "held-out"), hold=HELD)
     assert found.verdict == "unexplained"
     assert {MISSING, UNKNOWN} <= {*found.best.effects}
-    assert next(each.probability for each in found.effects if each.name == MISSING) > 0.75
+    known_effects = [each for each in found.effects if each.name != UNKNOWN]
+    assert max(known_effects, key=lambda each: each.probability).name == MISSING
     known = [each for each in found.explanations if each.effects in found.answer_set and UNKNOWN not in each.effects]
     best = max(each.log_evidence for each in known)
     assert all(MISSING in each.effects or each.log_evidence < best - 15.0 for each in known)

@@ -14,13 +14,12 @@ from probation.diagnosis.probabilities import (
     effect_count,
     given_a_gap,
     given_no_gap,
-    log_prior,
     probabilities_of,
     with_unseen,
     with_untried,
 )
+from probation.diagnosis.trust import OtherForms, Tempered, log_prior
 from probation.effects.cause import Cause
-from probation.inference.calibration_check import Trust
 from probation.inference.evidence import Evidence
 from probation.inference.unknown import UNKNOWN
 from probation.settings.evidence import EVIDENCE
@@ -168,37 +167,6 @@ def test_odds_grow_with_the_ratio_of_evidences():
     assert chance[(NAMES[0],)] / chance[(NAMES[1],)] == pytest.approx(np.exp(2.0))
 
 
-@pytest.mark.parametrize(("gain", "counts"), [(30.0, 0.0), (50.0, 0.0), (80.0, 30.0)])
-def test_a_further_effect_counts_for_what_it_gains_beyond_the_error_of_the_firsts_form(gain, counts):
-    """The first gains 1000 over none: up to a twentieth of that its form may leave."""
-    first, second = (made(name) for name in NAMES[:2])
-    pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=1000.0 + gain)
-    found = [hypothesis(), alone(NAMES[0], log_evidence=1000.0), pair]
-    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Trust(left_by_forms=0.05))}
-    beforehand = log_prior(tuple(NAMES[:2]), len(NAMES)) - log_prior((NAMES[0],), len(NAMES))
-    assert np.log(chance[tuple(sorted(NAMES[:2]))] / chance[(NAMES[0],)]) == pytest.approx(beforehand + counts)
-
-
-def test_a_further_effect_with_a_period_is_not_taken_for_the_error_of_a_form():
-    """A ripple of 137 jointly with a warming of 3943 log units was not counted: no smooth form errs by a period."""
-    first, second = (made(name) for name in NAMES[:2])
-    ripple = replace(second, forms=(replace(second.forms[0], sharp="line"),))
-    pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, ripple)), log_evidence=1030.0)
-    found = [hypothesis(), alone(NAMES[0], log_evidence=1000.0), pair]
-    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Trust(left_by_forms=0.05))}
-    beforehand = log_prior(tuple(NAMES[:2]), len(NAMES)) - log_prior((NAMES[0],), len(NAMES))
-    assert np.log(chance[tuple(sorted(NAMES[:2]))] / chance[(NAMES[0],)]) == pytest.approx(beforehand + 30.0)
-
-
-def test_of_a_gross_gap_a_further_effect_is_not_taken_for_the_error_of_a_form():
-    """The first gains 100 000, of which a twentieth is far more than what was tried."""
-    first, second = (made(name) for name in NAMES[:2])
-    pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=1e5 + 1000.0)
-    found = [hypothesis(), alone(NAMES[0], log_evidence=1e5), pair]
-    weighed = probabilities_of(found, len(NAMES), Trust(0.2, left_by_forms=0.05))
-    assert weighed[0].effects == tuple(sorted(NAMES[:2]))
-
-
 @pytest.mark.parametrize("forms", [(), ("second",), ("second", "third")])
 def test_forms_and_places_of_an_effect_count_as_one_cause(forms):
     """All equally good: as probable together as an effect of one form that sits in all records."""
@@ -225,45 +193,54 @@ def test_an_effect_in_several_records_each_time_in_its_own_size_must_earn_its_pl
     )
 
 
-def test_forms_in_doubt_leave_what_was_probable_beforehand():
-    """With a doubt of 0.4 in which evidence counts for next to nothing, 0.6 of the rest and 0.4 of the prior."""
-    found = [hypothesis(), alone(NAMES[0], log_evidence=300.0), *(alone(name) for name in NAMES[1:])]
-    sure = {each.effects: each.probability for each in probabilities_of(found, len(NAMES))}
-    trust = Trust(doubt=0.4, power_in_doubt=1e-12)
-    doubted = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), trust)}
-    prior = {name: np.exp(log_prior(name, len(NAMES))) for name in sure}
-    for name, chance in doubted.items():
-        expected = 0.6 * sure[name] + 0.4 * prior[name] / sum(prior[each] for each in prior if "unknown" not in each)
-        if "unknown" not in name:
-            assert chance == pytest.approx(expected)
+OTHERS = OtherForms(fall=0.75, unknown_power=0.02, two=0.1, three=0.01, unknown=1.0, unknown_with_known=0.004)
 
 
-def test_in_strong_doubt_a_known_cause_far_behind_keeps_some_probability_and_an_unknown_gets_none():
-    """One of the causes is 600 log units ahead: the others share a fifth with it, as exp(-600 / 300)."""
-    found = [hypothesis(unknown=590.0), alone(NAMES[0], log_evidence=600.0), *(alone(name) for name in NAMES[1:])]
-    trust = Trust(strong_doubt=0.2, power_in_strong_doubt=1.0 / 300.0)
-    weighed = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), trust)}
-    sure = {each.effects: each.probability for each in probabilities_of(found, len(NAMES))}
-    behind = np.exp(-2.0) / (1.0 + (len(NAMES) - 1) * np.exp(-2.0))
-    for name in NAMES[1:]:
-        assert weighed[(name,)] == pytest.approx(0.2 * behind)
-    assert weighed[("unknown",)] == pytest.approx(0.8 * sure[("unknown",)])
-    assert sum(weighed.values()) == pytest.approx(1.0)
+def test_evidence_to_a_power_says_less():
+    """Ten log units to the power of 0.4 are four."""
+    found = [hypothesis(), alone(NAMES[0], log_evidence=10.0), alone(NAMES[1])]
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), Tempered(0.4))}
+    assert chance[(NAMES[0],)] / chance[(NAMES[1],)] == pytest.approx(np.exp(4.0))
 
 
-@pytest.mark.parametrize(("lead", "kept"), [(8.0, True), (3.0, False)])
-def test_an_unknown_effect_does_not_lead_by_its_prior_alone(lead, kept):
-    """Where evidence counts to the power of 0.1, eight log units do not outweigh the prior: the limit does."""
-    found = [hypothesis(unknown=50.0 - lead), alone(NAMES[0], log_evidence=50.0)]
-    free = {each.effects: each.probability for each in probabilities_of(found, 60, Trust(power=0.1))}
-    cut = {each.effects: each.probability for each in probabilities_of(found, 60, Trust(power=0.1, most_unknown=0.2))}
-    assert free[("unknown",)] > free[(NAMES[0],)]
-    if not kept:
-        assert cut == pytest.approx(free)
-        return
-    assert cut[("unknown",)] == pytest.approx(0.2)
-    assert sum(cut.values()) == pytest.approx(1.0)
-    assert cut[(NAMES[0],)] / cut[()] == pytest.approx(free[(NAMES[0],)] / free[()])
+@pytest.mark.parametrize(("behind", "ratio"), [(0.0, 1.0), (15.0, 16.0**-0.75), (255.0, 256.0**-0.75)])
+def test_where_forms_are_others_odds_fall_with_a_power_of_the_distance(behind, ratio):
+    """Fifteen log units: an eighth. 255: a 64th, where Bayes' rule with right forms leaves nothing."""
+    found = [hypothesis(), alone(NAMES[0], log_evidence=300.0), alone(NAMES[1], log_evidence=300.0 - behind)]
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), OTHERS)}
+    assert chance[(NAMES[1],)] / chance[(NAMES[0],)] == pytest.approx(ratio)
+    assert sum(chance.values()) == pytest.approx(1.0)
+
+
+def test_where_forms_are_others_more_effects_need_more_evidence():
+    """Two that describe the records as well as one have a tenth of its odds; an unknown one beside it fewer still."""
+    first, second = (made(name) for name in NAMES[:2])
+    pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=300.0)
+    found = [hypothesis(unknown=300.0), alone(NAMES[0], log_evidence=300.0, unknown=300.0), pair]
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), OTHERS)}
+    single = chance[(NAMES[0],)]
+    assert chance[tuple(NAMES[:2])] / single == pytest.approx(OTHERS.two)
+    assert chance[("unknown",)] / single == pytest.approx(OTHERS.unknown)
+    assert chance[(NAMES[0], "unknown")] / single == pytest.approx(OTHERS.unknown_with_known)
+    assert chance[()] / single == pytest.approx(301.0**-0.75)
+
+
+def test_where_forms_are_others_an_unknown_effect_falls_with_an_exponential_of_the_distance():
+    """It has no form that could be wrong: fifty log units to the power of 0.02 are one."""
+    found = [hypothesis(unknown=250.0), alone(NAMES[0], log_evidence=300.0, unknown=200.0)]
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), OTHERS)}
+    single = chance[(NAMES[0],)]
+    assert chance[("unknown",)] / single == pytest.approx(np.exp(-1.0) * OTHERS.unknown)
+    assert chance[(NAMES[0], "unknown")] / single == pytest.approx(np.exp(-2.0) * OTHERS.unknown_with_known)
+
+
+def test_where_forms_are_others_a_rare_effect_is_as_probable_as_any():
+    rare = replace(made("rare"), odds=0.2)
+    found = [hypothesis(), hypothesis(Cause(rare, rare.forms[0]), log_evidence=9.0), alone(NAMES[0], log_evidence=9.0)]
+    chance = {each.effects: each.probability for each in probabilities_of(found, 2, OTHERS)}
+    assert chance[("rare",)] == pytest.approx(chance[(NAMES[0],)])
+    told = {each.effects: each.probability for each in probabilities_of(found, 2, Tempered())}
+    assert told[("rare",)] == pytest.approx(0.2 * told[(NAMES[0],)])
 
 
 def test_the_form_and_place_with_the_most_evidence_stands_for_an_effect():

@@ -214,8 +214,12 @@ def test_without_an_explanation_the_next_tests_settle_what_the_rest_depends_on(u
 
 @pytest.fixture(scope="module")
 def rivalled():
-    """An unknown effect leads; known ones behind it are open."""
-    return diagnose(campaign(CYCLES[:2], softened), effects=["structural_softening", "damage"], threads=1)
+    """An unknown effect leads; known ones behind it are open, the softening being a fifth of the one above."""
+
+    def slightly(time, strain, temperature, stress):
+        return stress + 0.2 * (softened(time, strain, temperature, stress) - stress)
+
+    return diagnose(campaign(CYCLES[:2], slightly), effects=["structural_softening", "damage"], threads=1)
 
 
 def test_where_an_unknown_effect_leads_tests_of_what_the_rest_depends_on_come_first(rivalled):

@@ -141,7 +141,7 @@ def compare(
         headline=with_budget(headline(explanations[0], len(kept.records), reference.campaign.name), causes.cut_text),
         pairs=together,
         explanations=explanations,
-        answer_set=leading(explanations, calibration.covered),
+        answer_set=leading(explanations),
         rms_MPa={name: closure.before_MPa for name, closure in shrink.records.items()},
         noise_MPa={name: closure.noise_MPa for name, closure in shrink.records.items()},
         curves={

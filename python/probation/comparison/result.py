@@ -86,7 +86,7 @@ class Comparison(Result, Stored):
     explanations : tuple of ChangeExplanation
         By probability, which sums to 1.
     answer_set : tuple of ChangeExplanation
-        The most probable ones that hold 95 % together, 98 % outside the calibrated ranges.
+        The most probable ones that hold 95 % together.
     rms_MPa, noise_MPa : dict of str to float
         Of each record's change, and of its noise.
     curves : dict of str to ChangeCurves

@@ -25,9 +25,11 @@ from probation.diagnosis.probabilities import (
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.search import Search
 from probation.diagnosis.shrink import shrink_of
+from probation.diagnosis.trust import Tempered, trust_in
 from probation.effects.large_faults import with_large_faults
 from probation.inference.base_fit import with_joint_noise
 from probation.inference.unknown import UNKNOWN
+from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -40,7 +42,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.skipped import Skipped, Skipping
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
-    from probation.inference.calibration_check import CalibrationCheck, Trust
+    from probation.inference.calibration_check import CalibrationCheck
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,12 +155,12 @@ def causes_of(
     progress : callable
         Called with the fraction done.
     calibration : CalibrationCheck
-        How far the evidence counts, and how much of the probability an answer set holds.
+        How far the evidence counts.
     """
     considered = tuple(considered)
     if not gap:
         hypotheses = linear_hypotheses(base, base.columns, skipping)
-        trust = replace(calibration.trust, doubt=0.0, strong_doubt=0.0)  # of forms, which describe nothing here
+        trust = Tempered(EVIDENCE.evidence_power)  # no form describes anything here
         weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), trust), p_value)
         return Causes(base, considered, hypotheses, weighed, {}, "no_gap")
     considered = with_large_faults(considered, base.model.views)
@@ -166,25 +168,15 @@ def causes_of(
     hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)
 
-    def judged(trust: Trust) -> Causes:
-        weighed = probabilities_of(hypotheses, effect_count(considered), trust)
-        weighed = account.ranked(given_a_gap(weighed, p_value), calibration.covered)
-        left, checked = _judged(leading(weighed, calibration.covered), base, account, seed)
-        verdict: Verdict = "unexplained" if left or UNKNOWN in weighed[0].effects else "explained"
-        return Causes(base, considered, hypotheses, weighed, checked, verdict, cut)
-
-    def leaves_more(causes: Causes) -> bool:
-        if UNKNOWN in causes.weighed[0].effects:
-            return False
-        return bool(account.worse(causes.best)) or _another_acts(causes.best, base, seed)
-
-    trust = calibration.trust
-    causes = judged(trust)
-    more = leaves_more(causes)
-    if trust.left_by_forms and (more or UNKNOWN in causes.weighed[0].effects):
-        # What is left is no error of a form.
-        causes = judged(replace(trust, left_by_forms=0.0))
-        more = leaves_more(causes)
+    weighed = probabilities_of(hypotheses, effect_count(considered), trust_in(calibration))
+    weighed = account.ranked(given_a_gap(weighed, p_value))
+    left, checked = _judged(leading(weighed), base, account, seed)
+    best = weighed[0]
+    verdict: Verdict = "unexplained" if left or UNKNOWN in best.effects else "explained"
+    causes = Causes(base, considered, hypotheses, weighed, checked, verdict, cut)
+    if UNKNOWN in best.effects:
+        return causes
+    more = bool(account.worse(best.hypothesis)) or _another_acts(best.hypothesis, base, seed)
     return causes.with_unknown_added() if more else causes
 
 

@@ -174,7 +174,7 @@ def diagnose(
     done(0.7, "measuring what causes close")
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
     weighed, verdict = causes.weighed, causes.verdict
-    chosen = answer_set(weighed, calibration.covered)
+    chosen = answer_set(weighed)
     if gap.exists:
         weighed = causes.with_untried(with_unseen(weighed, considered))
     best, explanations = weighed[0], explanations_of(weighed, causes.checks)
@@ -231,7 +231,7 @@ def diagnose(
         signatures=signatures(base, best.hypothesis) if gap.exists else (),
         explanations=explanations,
         effects=parts.effects,
-        answer_set=answer_set(causes.with_untried(causes.weighed), calibration.covered),
+        answer_set=answer_set(causes.with_untried(causes.weighed)),
         shrink=shrink,
         next_test=following[0] if following else None,
         next_tests=following,

@@ -132,7 +132,7 @@ class HeldToAccount:
             self._known[key] = made_worse(hypothesis, self._base, seed=self._seed)
         return self._known[key]
 
-    def ranked(self, weighed: Sequence[Weighed], covered: float) -> list[Weighed]:
+    def ranked(self, weighed: Sequence[Weighed]) -> list[Weighed]:
         """The explanations, most probable first, those less probable that make a held-out record worse.
 
         Each of these keeps `EVIDENCE.held_out_penalty` of its probability, and all are normalised. Only explanations of
@@ -142,12 +142,10 @@ class HeldToAccount:
         Parameters
         ----------
         weighed : sequence of Weighed
-        covered : float
-            Probability that the answer set holds.
         """
         known = [
             explanation
-            for explanation in leading(weighed, covered)
+            for explanation in leading(weighed)
             if explanation.effects and UNKNOWN not in explanation.effects
         ]
         refuted = [id(explanation) for explanation in known if self.worse(explanation.hypothesis)]

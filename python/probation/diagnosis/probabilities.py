@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import comb, e, exp, log
+from math import e, exp, log
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 import numpy as np
 from scipy.special import logsumexp, softmax
 
-from probation.inference.calibration_check import EXACT
+from probation.diagnosis.trust import Tempered, log_prior
 from probation.inference.candidate import Key
 from probation.inference.unknown import UNKNOWN
-from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
-    from probation._arrays import FloatArray
     from probation.diagnosis.hypothesis import Hypothesis
-    from probation.effects.effect import Effect, Form
-    from probation.inference.calibration_check import Trust
+    from probation.diagnosis.trust import Trust
+    from probation.effects.effect import Effect
 
 
 class HasProbability(Protocol):
@@ -33,6 +31,8 @@ class HasProbability(Protocol):
 
 
 Probable = TypeVar("Probable", bound=HasProbability)
+
+AT_ITS_WORD = Tempered()
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ class Weighed:
     log_evidence: float | None = None
 
 
-def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust = EXACT) -> list[Weighed]:
+def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust = AT_ITS_WORD) -> list[Weighed]:
     """Probabilities of all explanations, most probable first.
 
     Parameters
@@ -80,12 +80,9 @@ def probabilities_of(hypotheses: Sequence[Hypothesis], count: int, trust: Trust 
                 together.setdefault(effects, []).append((score + inside, hypothesis))
     evidence = {effects: float(logsumexp([score for score, _ in entries])) for effects, entries in together.items()}
     odds = {effects: _log_odds(entries[0][1]) for effects, entries in together.items()}
-    periodic = {
-        cause.effect.name for hypothesis in hypotheses for cause in hypothesis.causes if is_periodic(cause.form)
-    }
     weighed = [
         Weighed(effects, chance, _standing_for(together[effects]), evidence[effects] - evidence[()])
-        for effects, chance in chances_of(evidence, odds, count, trust, periodic=periodic).items()
+        for effects, chance in chances_of(evidence, odds, count, trust).items()
     ]
     return sorted(weighed, key=lambda explanation: -explanation.probability)
 
@@ -95,8 +92,6 @@ def chances_of(
     log_odds: Mapping[tuple[str, ...], float],
     count: int,
     trust: Trust,
-    *,
-    periodic: Collection[str],
 ) -> dict[tuple[str, ...], float]:
     """Probabilities of explanations by their evidence and by what was probable beforehand.
 
@@ -110,71 +105,14 @@ def chances_of(
         Of the catalogue.
     trust : Trust
         How far evidence counts.
-    periodic : collection of str
-        Effects that are periodic.
 
     Returns
     -------
     dict
         They sum to 1, in the order of `log_evidence`.
     """
-    evidence = _beyond_forms(log_evidence, trust.left_by_forms, periodic=periodic)
-    gained = np.array(list(evidence.values()))
-    before = np.array([log_prior(effects, count) + log_odds[effects] for effects in evidence])
-    chances = (1.0 - trust.doubt) * softmax(trust.power * gained + before)
-    chances += trust.doubt * softmax(trust.power_in_doubt * gained + before)
-    far = softmax(_of_known(evidence, trust.power_in_strong_doubt * gained + before))
-    chances = (1.0 - trust.strong_doubt) * chances + trust.strong_doubt * far
-    chances = _unknown_cut(chances, evidence, trust.most_unknown)
-    return dict(zip(evidence, chances.tolist(), strict=True))
-
-
-def _of_known(explanations: Iterable[tuple[str, ...]], scores: FloatArray) -> FloatArray:
-    """Scores of the explanations by known effects alone, if there are any; none of the others."""
-    known = np.array([bool(effects) and UNKNOWN not in effects for effects in explanations])
-    return np.where(known, scores, -np.inf) if known.any() else scores
-
-
-def _unknown_cut(chances: FloatArray, evidence: Mapping[tuple[str, ...], float], most: float) -> FloatArray:
-    """An unknown effect alone keeps no more than `most` where an explanation without one has plainly more evidence.
-
-    It stands for all smooth functions, and its prior is that of several effects. Where evidence counts to a low power
-    the prior decides, whatever a known effect gains.
-    """
-    alone = (UNKNOWN,)
-    known = max((value for effects, value in evidence.items() if effects and UNKNOWN not in effects), default=-np.inf)
-    at = list(evidence).index(alone) if alone in evidence else -1
-    if at < 0 or known - evidence[alone] < CALIBRATED.plain_lead or chances[at] <= most:
-        return chances
-    others = (1.0 - most) / (1.0 - chances[at])
-    return np.where(np.arange(len(chances)) == at, most, others * chances)
-
-
-def is_periodic(form: Form) -> bool:
-    """Whether what it makes comes back in time or in the strain."""
-    return form.sharp in ("line", "strain_period")
-
-
-def _beyond_forms(
-    evidence: Mapping[tuple[str, ...], float], part: float, periodic: Collection[str]
-) -> dict[tuple[str, ...], float]:
-    """Log evidence of all explanations, of several effects without what the error of one of their forms may leave.
-
-    An effect whose form is wrong by a fifth leaves a twenty-fifth of what it gains, and a further effect picks that up;
-    but not one that is `periodic`: the error of a smooth form has no period. How much was tried ends at
-    `EVIDENCE.most_left_by_forms`.
-    """
-    none = evidence[()]
-
-    def counted(effects: tuple[str, ...]) -> float:
-        own = evidence[effects]
-        if sum(name not in periodic for name in effects) < 2:
-            return own
-        alone = max((evidence[(name,)] for name in effects if (name,) in evidence), default=none)
-        excused = min(part * max(alone - none, 0.0), EVIDENCE.most_left_by_forms)
-        return min(own, max(alone, own - excused))
-
-    return {effects: counted(effects) for effects in evidence}
+    chances = softmax(trust.log_weights(log_evidence, log_odds, count))
+    return dict(zip(log_evidence, chances.tolist(), strict=True))
 
 
 def effect_count(effects: Sequence[Effect]) -> int:
@@ -358,15 +296,6 @@ def _best_starts(hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:
         if key not in best or hypothesis.evidence.log_evidence > best[key].evidence.log_evidence:
             best[key] = hypothesis
     return list(best.values())
-
-
-def log_prior(effects: tuple[str, ...], count: int) -> float:
-    """Log prior probability of a set of effects of a catalogue of so many."""
-    known = [name for name in effects if name != UNKNOWN]
-    if len(known) < len(effects):
-        return log(EVIDENCE.unknown_effect) if not known else log(EVIDENCE.unknown_with_known / count) * len(known)
-    share = (EVIDENCE.no_effect, EVIDENCE.one_effect, EVIDENCE.two_effects, EVIDENCE.three_effects)[len(known)]
-    return log(share / max(comb(count, len(known)), 1))
 
 
 def answer_set(weighed: Sequence[Weighed], covered: float = EVIDENCE.credible_set) -> tuple[tuple[str, ...], ...]:

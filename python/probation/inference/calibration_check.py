@@ -1,4 +1,4 @@
-"""Whether levels and probabilities were calibrated on campaigns such as this one, and how far to trust them if not."""
+"""Whether levels and probabilities were calibrated on campaigns such as this one."""
 
 from __future__ import annotations
 
@@ -12,48 +12,12 @@ from probation.inference.wrapped_law import WrappedLaw
 from probation.records.noise import noise_level
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.detection import DETECTION
-from probation.settings.evidence import EVIDENCE
 from probation.wording import percentage
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation.inference.base_fit import BaseFit
-
-
-@dataclass(frozen=True)
-class Trust:
-    """How far the evidence of forms counts.
-
-    Attributes
-    ----------
-    power : float
-        To which it counts: below 1 it is trusted less.
-    left_by_forms : float
-        Part of what a right effect gains that the error of its form may leave: further effects count for what they gain
-        beyond that.
-    doubt : float
-        Probability that forms are so far from the catalogue's that evidence counts to `power_in_doubt` only.
-    power_in_doubt : float
-    strong_doubt : float
-        Probability that they are so far from it that evidence counts to `power_in_strong_doubt` only, among known
-        effects.
-    power_in_strong_doubt : float
-    most_unknown : float
-        Most that an unknown effect keeps where a known explanation has plainly more evidence.
-    """
-
-    power: float = 1.0
-    left_by_forms: float = 0.0
-    doubt: float = 0.0
-    power_in_doubt: float = 1.0
-    strong_doubt: float = 0.0
-    power_in_strong_doubt: float = 1.0
-    most_unknown: float = 1.0
-
-
-EXACT = Trust()
-"""Forms are taken at their word."""
 
 
 @dataclass(frozen=True)
@@ -70,11 +34,6 @@ class CalibrationCheck:
     inside: bool
     why: tuple[str, ...] = ()
 
-    @property
-    def covered(self) -> float:
-        """Probability that the answer set holds: more where the probabilities are less sure."""
-        return EVIDENCE.credible_set if self.inside else CALIBRATED.credible_set_outside
-
     def gap_level(self, misfit_over_noise: float) -> float:
         """p-value below which a gap is declared; lower for a small gap where noise may be unlike any that was tried.
 
@@ -87,31 +46,15 @@ class CalibrationCheck:
         return CALIBRATED.gap_level_outside if doubtful else DETECTION.gap_level
 
     @property
-    def trust(self) -> Trust:
-        """How far evidence counts: less where nobody has seen how far it is to be trusted."""
-        if self.inside:
-            return Trust(EVIDENCE.evidence_power)
-        return Trust(
-            CALIBRATED.evidence_power_outside,
-            CALIBRATED.left_by_forms_outside,
-            CALIBRATED.doubt_outside,
-            CALIBRATED.power_in_doubt,
-            CALIBRATED.strong_doubt_outside,
-            CALIBRATED.power_in_strong_doubt,
-            CALIBRATED.most_unknown_outside,
-        )
-
-    @property
     def warnings(self) -> tuple[str, ...]:
         """One sentence where the campaign lies outside, else none."""
         if self.inside:
             return ()
-        low, high = (percentage(part) for part in CALIBRATED.right_elsewhere)
+        low, high = (percentage(part) for part in CALIBRATED.held_elsewhere)
         return (
-            f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): they are too sure where "
-            f"forms are others; in laboratories of others the leading explanation was right in {low} to {high} % of "
-            f"gaps for which {percentage(CALIBRATED.said_elsewhere)} % were said; the answer set holds "
-            f"{100.0 * self.covered:g} % instead of {100.0 * EVIDENCE.credible_set:g} %",
+            f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): evidence counts for less, "
+            "and answer sets are larger; so weighed, what laboratories of others had made came true about as often as "
+            f"was said, and the truth was in {low} to {high} % of answer sets",
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -132,6 +75,10 @@ class Extent:
     strain_noise : tuple of float
     gap : float
         Misfit of the base law over the noise.
+    scatter : float
+        Standard deviation between specimens, of what they differ in most.
+    law : str
+        The modal one, or another.
     """
 
     records: int
@@ -139,6 +86,8 @@ class Extent:
     noise: tuple[float, float]
     strain_noise: tuple[float, float]
     gap: float
+    scatter: float
+    law: str
 
 
 def extent_of(base: BaseFit) -> Extent:
@@ -153,12 +102,15 @@ def extent_of(base: BaseFit) -> Extent:
         for record in fitted
     ]
     misfit, noise = base.misfit
+    law = base.law.law if isinstance(base.law, WrappedLaw) else base.law
     return Extent(
         len(fitted),
         _ends([len(record) for record in fitted]),
         _ends(relative),
         _ends(strain),
         misfit / max(noise, 1e-300),
+        max(base.scatter.deviations, default=0.0),
+        CALIBRATED.law if isinstance(law, DnlrLaw) else "another law",
     )
 
 
@@ -177,15 +129,15 @@ def check_calibration(base: BaseFit) -> CalibrationCheck:
         ("a noise over the largest stress", extent.noise, CALIBRATED.noise, "{:.2g}".format),
         ("a strain noise", extent.strain_noise, CALIBRATED.strain_noise, "{:.2g}".format),
         ("a misfit over the noise", (extent.gap, extent.gap), CALIBRATED.gap, _two_digits),
+        ("a scatter between specimens", (extent.scatter, extent.scatter), CALIBRATED.scatter, "{:.2g}".format),
     )
     for name, (low, high), (least, most), form in compared:
         if low < least or high > most:
             outside = high if high > most else low
-            why.append(f"{name} of {form(outside)}, where {form(least)} to {form(most)} are covered")
-    if base.scatter.any:
-        why.append("specimens that differ, where they are alike in those covered")
-    if not isinstance(base.law.law if isinstance(base.law, WrappedLaw) else base.law, DnlrLaw):
-        why.append("another law than the modal one")
+            covered = f"{form(least)} to {form(most)} are" if least < most else f"{form(least)} is"
+            why.append(f"{name} of {form(outside)}, where {covered} covered")
+    if extent.law != CALIBRATED.law:
+        why.append(f"{extent.law}, where the {CALIBRATED.law} is covered")
     return CalibrationCheck(not why, tuple(why))
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from probation.settings.setting import calibrated, chosen
 
 _SOURCE = "the first 60 campaigns of calibrate, seed 43: python -m bench.calibrated_ranges"
+_ELSEWHERE = "docs/laboratories.md, tuned in turn: python -m bench.in_turn"
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,10 @@ class CalibratedRanges:
         (0.0, 3e-5), "-", "Noise of the recorded strain from sample to sample.", source=_SOURCE
     )
     gap: tuple[float, float] = calibrated((0.0, 4.8), "-", "Misfit of the base law, over the noise.", source=_SOURCE)
+    scatter: tuple[float, float] = calibrated(
+        (0.0, 0.0), "-", "Standard deviation between specimens, of what they differ in most.", source=_SOURCE
+    )
+    law: str = calibrated("modal law", "-", "The law whose errors were explained.", source=_SOURCE)
     gap_level_outside: float = calibrated(
         1e-5,
         "-",
@@ -32,72 +37,35 @@ class CalibratedRanges:
     large_misfit_outside: float = chosen(
         3.0, "noise", "Misfit, over the noise from sample to sample, from which on `gap_level` is enough."
     )
-    evidence_power_outside: float = calibrated(
-        0.2,
+    fall_with_distance: float = calibrated(
+        0.88,
         "-",
-        "Power of the evidence of a campaign outside these ranges.",
-        source="docs/tried.md: university, seed 8801; industry, seed 8802",
+        "Outside these ranges the odds of known effects fall with their distance D in log evidence from the best "
+        "explanation as (1 + D) to minus this power.",
+        source=_ELSEWHERE,
     )
-    left_by_forms_outside: float = calibrated(
-        0.05,
+    unknown_power_outside: float = calibrated(
+        0.016,
         "-",
-        "Part of what an effect gains that the error of its form may leave there, for which no further effect counts: "
-        "a form that is wrong by 22 %.",
-        source="docs/laboratories-seeds.md: university, seed 51001; industry, seed 51002",
+        "Power to which evidence counts there where an effect outside the catalogue acts: it has no form to be wrong.",
+        source=_ELSEWHERE,
     )
-    doubt_outside: float = calibrated(
-        0.3,
-        "probability",
-        "That the forms of a campaign outside these ranges are so far from the catalogue's that evidence counts to "
-        "`power_in_doubt` only.",
-        source="docs/tried.md: university, seed 51001; industry, seed 51002",
-    )
-    power_in_doubt: float = calibrated(
-        0.05,
+    odds_of_two: float = calibrated(
+        0.07,
         "-",
-        "Power of the evidence where its forms are in doubt.",
-        source="docs/tried.md: university, seed 51001; industry, seed 51002",
+        "Odds there of two known effects over a single one, both as far from the best explanation.",
+        source=_ELSEWHERE,
     )
-    strong_doubt_outside: float = calibrated(
-        0.15,
-        "probability",
-        "That a cause has a known name, but its form is so far from the catalogue's that evidence counts to "
-        "`power_in_strong_doubt` only: a right cause may be hundreds of log units behind.",
-        source="docs/tried.md: seeds 104001 to 104003",
+    odds_of_three: float = calibrated(0.0015, "-", "Odds there of three known effects or more.", source=_ELSEWHERE)
+    odds_of_unknown: float = calibrated(0.15, "-", "Odds there of an effect outside the catalogue.", source=_ELSEWHERE)
+    odds_of_unknown_with_known: float = calibrated(
+        0.0002, "-", "Odds there of an effect outside the catalogue jointly with known ones.", source=_ELSEWHERE
     )
-    power_in_strong_doubt: float = calibrated(
-        0.005,
+    held_elsewhere: tuple[float, float] = calibrated(
+        (0.77, 0.87),
         "-",
-        "Power of the evidence there: what is thousands of log units behind stays impossible.",
-        source="docs/tried.md: seeds 104001 to 104003",
-    )
-    most_unknown_outside: float = calibrated(
-        0.2,
-        "probability",
-        "Most that an effect outside the catalogue keeps outside these ranges where a known explanation leads it by "
-        "`plain_lead`: evidence that counts to a low power leaves it ahead by its prior alone.",
-        source="docs/laboratories-seeds.md, plain single effects: seeds 19001 to 19003",
-    )
-    plain_lead: float = calibrated(
-        5.0,
-        "log evidence",
-        "Lead of the best known explanation over an effect outside the catalogue from which on that holds.",
-        source="docs/laboratories-seeds.md, plain single effects: seeds 19001 to 19003",
-    )
-    said_elsewhere: float = calibrated(
-        0.54,
-        "probability",
-        "Of the leading explanation, in the mean over declared gaps of other laboratories.",
-        source="docs/laboratories.md: seeds 121001 to 121003 and 122001 to 122003",
-    )
-    right_elsewhere: tuple[float, float] = calibrated(
-        (0.36, 0.49),
-        "-",
-        "Part of these gaps in which it was right: those of industry, and the institute's.",
-        source="docs/laboratories.md: seeds 121001 to 121003 and 122001 to 122003",
-    )
-    credible_set_outside: float = chosen(
-        0.98, "probability", "Probability that an answer set holds of a campaign outside these ranges."
+        "Part of declared gaps of other laboratories whose answer sets held the truth: the least, and the most of any.",
+        source=_ELSEWHERE,
     )
 
 

@@ -70,12 +70,6 @@ class EvidenceSettings:
         "probability",
         "Probability from which on a single effect is reported with others that may act jointly, unseen.",
     )
-    most_left_by_forms: float = calibrated(
-        175.0,
-        "log evidence",
-        "Most that the error of a form is let leave: what gains more in addition is not taken for a form's error.",
-        source="docs/laboratories-seeds.md: university, seed 51001; industry, seed 51002; gains up to 3500",
-    )
     credible_set: float = chosen(0.95, "probability", "Probability that an answer set holds.")
     discrepancy_softness: tuple[float, ...] = chosen(
         (2.0, 1.0),

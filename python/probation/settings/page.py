@@ -83,8 +83,10 @@ def modules_by_setting() -> dict[str, list[str]]:
     return modules
 
 
-def _value(value: float | tuple[Any, ...]) -> str:
-    return ", ".join(map(_value, value)) if isinstance(value, tuple) else f"{value:g}"
+def _value(value: float | str | tuple[Any, ...]) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(map(_value, value))
+    return value if isinstance(value, str) else f"{value:g}"
 
 
 def _origin(known: Any) -> str:
