@@ -3,7 +3,8 @@
 `python -m bench.in_turn FOLDER…`: sealed folders of several laboratories, answered; the truths are opened, and answers
 weighed anew by the log evidence that they state (`bench.reweighed`). The six numbers of `OtherForms` are those that
 give the truths of the other laboratories' declared gaps the highest probability. What is printed is of the laboratory
-left out, beside the weights in force; the line below has those of all folders.
+left out, beside the weights in force; then of all together, and the weights that all folders tell. "Said" and "right"
+are of what leads in declared gaps, and so is the calibration error.
 
 Then the level of the answer sets that holds 95 % of the others' truths (conformal calibration; Vovk, Gammerman and
 Shafer 2005), in two strata: gaps of which the best explanation gains less than `PLAIN` log units, and the others. A
@@ -28,9 +29,11 @@ from bench.one_line import one_line
 from bench.reweighed import Gap, gap_in
 from probation.diagnosis.trust import OtherForms, trust_in
 from probation.inference.calibration_check import CalibrationCheck
+from probation.settings.calibrated import CALIBRATED
 from probation.settings.evidence import EVIDENCE
 from probation_studies.blind.layout import Layout
 from probation_studies.blind.scores.intervals import Rate
+from probation_studies.blind.scores.probabilities import reliability
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -167,8 +170,8 @@ def found_on(gaps: Sequence[Gap]) -> OtherForms:
         off = numbers - start
         return 0.5 * float(off @ off) - sum(_log_chance(gap, weights(numbers)) for gap in told)
 
-    start = np.log(astuple(START))
-    return weights(minimize(loss, start).x)
+    start = np.log(astuple(START)[:-1])
+    return replace(weights(minimize(loss, start).x), most_unknown=CALIBRATED.most_unknown_outside)
 
 
 def _log_chance(gap: Gap, trust: OtherForms) -> float:
@@ -200,8 +203,8 @@ def row(own: Answered, name: str, found: Sequence[Judged]) -> list[str]:
         rate(scores["unknown"]["found_clear"]),
         rate(sets["coverage"]),
         between(size / least if size and least else None, sets.get("over_oracle", {}).get("interval95")),
-        calibration_error(scores["reliability"]),
-        f"{np.mean([each.ranked[0][1] for each in found]):.2f}",
+        calibration_error(reliability([each.case for each in found])),
+        f"{np.mean([max(each.stated.values()) for each in found]):.2f}",
         f"{np.mean([each.right for each in found]):.2f}",
         f"{np.mean([each.log_score for each in found]):.2f}",
     ]
@@ -241,18 +244,21 @@ def said(trust: OtherForms) -> str:
 
 def tables(laboratories: Sequence[Answered]) -> tuple[list[list[str]], list[list[str]]]:
     """Scores of each laboratory by the weights in force and by those of the others; sets of each stratum."""
-    scores, strata = [], []
+    scores, strata, whole = [], [], []
     for own in laboratories:
         theirs = [gap for other in laboratories if other is not own for gap in other.gaps]
         trust = found_on(theirs)
         here, there = judged(own.gaps, trust), judged(theirs, trust)
+        whole += here
         scores += [row(own, "in force", judged(own.gaps)), row(own, f"of the others: {said(trust)}", here)]
         for name, plain in ((f"less than {PLAIN:g}", False), (f"{PLAIN:g} or more", True)):
             inner = [each for each in here if (gain(each.gap) >= PLAIN) == plain]
             if inner:
                 level = level_of([each for each in there if (gain(each.gap) >= PLAIN) == plain])
                 strata.append(stratum_row(own.laboratory, name, inner, level))
-    return scores, strata
+    cases = [case for own in laboratories for case in own.cases]
+    every = Answered("all", cases, [gap for own in laboratories for gap in own.gaps])
+    return [*scores, row(every, "in force", judged(every.gaps)), row(every, "of the others", whole)], strata
 
 
 def main() -> None:

@@ -178,7 +178,7 @@ print(diagnosis.summary())
 # ----------------
 #
 # Suppose that only the fast ramp had been done. The same cause is in it, and the answer is
-# another: three names are starred, and the program says which test would choose between them.
+# another: several names are starred, and the program says which test would choose between them.
 
 alone = tuple(record for record in campaign.records if record.id == "ramp-fast")
 fewer = probation.diagnose(replace(campaign, records=alone), effects=considered)
@@ -187,9 +187,9 @@ print(fewer.next_tests[0].what)
 for explanation in fewer.explanations[:3]:
     print(f"{explanation.probability:5.0%}  {' + '.join(explanation.effects)}")
 
-# >   39%  self_heating
-# >   35%  damage
-# >    9%  force_gain
+# >   50%  self_heating
+# >   30%  damage
+# >    6%  unknown
 
 # %%
 # What to do with a name

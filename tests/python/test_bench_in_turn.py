@@ -139,8 +139,9 @@ def test_every_laboratory_is_scored_by_what_the_others_tell(gap):
         gaps = [replace(each, laboratory=name) for each in drawn(rng, gap, fall, 60)]
         laboratories.append(Answered(name, [each.case for each in gaps], gaps))
     scores, strata = tables(laboratories)
-    assert [line[0] for line in scores] == ["a", "a", "b", "b"]
-    assert [line[1].split(" ")[0] for line in scores] == ["in", "of", "in", "of"]
-    falls = [float(line[1].split(" a ")[1].split(",")[0]) for line in scores[1::2]]
+    assert [line[0] for line in scores] == ["a", "a", "b", "b", "all", "all"]
+    assert [line[1].split(" ")[0] for line in scores] == ["in", "of"] * 3
+    assert scores[-1][2] == "120"
+    falls = [float(line[1].split(" a ")[1].split(",")[0]) for line in scores[1:4:2]]
     assert falls[0] > falls[1]  # of the other one
     assert [line[:3] for line in strata] == [["a", "100 or more", "60"], ["b", "100 or more", "60"]]

@@ -234,6 +234,24 @@ def test_where_forms_are_others_an_unknown_effect_falls_with_an_exponential_of_t
     assert chance[(NAMES[0], "unknown")] / single == pytest.approx(np.exp(-2.0) * OTHERS.unknown_with_known)
 
 
+@pytest.mark.parametrize(("lead", "cut"), [(8.0, True), (3.0, False)])
+def test_an_unknown_effect_does_not_lead_where_known_ones_have_plainly_more_evidence(lead, cut):
+    """Two effects describe the records, the single one is far off: without the limit the unknown leads by its odds."""
+    first, second = (made(name) for name in NAMES[:2])
+    pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=900.0)
+    found = [hypothesis(unknown=900.0 - lead), alone(NAMES[0], log_evidence=300.0), pair]
+    free = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), OTHERS)}
+    limited = replace(OTHERS, most_unknown=0.2)
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), limited)}
+    assert max(free, key=free.get) == ("unknown",)
+    if not cut:
+        assert chance == pytest.approx(free)
+        return
+    assert chance[("unknown",)] == pytest.approx(0.2)
+    assert sum(chance.values()) == pytest.approx(1.0)
+    assert chance[tuple(NAMES[:2])] / chance[(NAMES[0],)] == pytest.approx(free[tuple(NAMES[:2])] / free[(NAMES[0],)])
+
+
 def test_where_forms_are_others_a_rare_effect_is_as_probable_as_any():
     rare = replace(made("rare"), odds=0.2)
     found = [hypothesis(), hypothesis(Cause(rare, rare.forms[0]), log_evidence=9.0), alone(NAMES[0], log_evidence=9.0)]

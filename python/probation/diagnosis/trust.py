@@ -7,6 +7,7 @@ from math import comb, log, log1p
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
+from scipy.special import logsumexp
 
 from probation.inference.unknown import UNKNOWN
 from probation.settings.calibrated import CALIBRATED
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from probation.inference.calibration_check import CalibrationCheck
 
 Effects = tuple[str, ...]
+ALONE = (UNKNOWN,)
 
 
 class Trust(Protocol):
@@ -79,6 +81,9 @@ class OtherForms:
         Odds of two and of three known effects, or more.
     unknown, unknown_with_known : float
         Odds of an effect outside the catalogue alone and jointly with known ones.
+    most_unknown : float
+        Most that an effect outside the catalogue keeps alone where known effects have plainly more evidence: it stands
+        for all smooth functions, and is near to the best explanation of any large gap.
     """
 
     fall: float
@@ -87,13 +92,19 @@ class OtherForms:
     three: float
     unknown: float
     unknown_with_known: float
+    most_unknown: float = 1.0
 
     def log_weights(
         self, log_evidence: Mapping[Effects, float], log_odds: Mapping[Effects, float], count: int
     ) -> FloatArray:
         """As in `Trust`; `log_odds` and `count` have no say."""
         best = max(log_evidence.values())
-        return np.array([self._log_weight(names, best - own) for names, own in log_evidence.items()])
+        weights = {names: self._log_weight(names, best - own) for names, own in log_evidence.items()}
+        known = max((own for names, own in log_evidence.items() if names and UNKNOWN not in names), default=-np.inf)
+        if self.most_unknown < 1.0 and known - log_evidence.get(ALONE, np.inf) >= CALIBRATED.plain_lead:
+            others = logsumexp([own for names, own in weights.items() if names != ALONE])
+            weights[ALONE] = min(weights[ALONE], others + log(self.most_unknown / (1.0 - self.most_unknown)))
+        return np.array(list(weights.values()))
 
     def _log_weight(self, names: Effects, distance: float) -> float:
         """Of an explanation; "none" has the odds of a single effect."""
@@ -115,6 +126,7 @@ def trust_in(calibration: CalibrationCheck) -> Trust:
         three=CALIBRATED.odds_of_three,
         unknown=CALIBRATED.odds_of_unknown,
         unknown_with_known=CALIBRATED.odds_of_unknown_with_known,
+        most_unknown=CALIBRATED.most_unknown_outside,
     )
 
 

@@ -61,8 +61,20 @@ class CalibratedRanges:
     odds_of_unknown_with_known: float = calibrated(
         0.0002, "-", "Odds there of an effect outside the catalogue jointly with known ones.", source=_ELSEWHERE
     )
+    most_unknown_outside: float = calibrated(
+        0.2,
+        "probability",
+        "Most that an effect outside the catalogue keeps there where a known explanation leads it by `plain_lead`.",
+        source="docs/laboratories-seeds.md, plain single effects: seeds 19001 to 19003",
+    )
+    plain_lead: float = calibrated(
+        5.0,
+        "log evidence",
+        "Lead of the best known explanation over an effect outside the catalogue from which on that holds.",
+        source="docs/laboratories-seeds.md, plain single effects: seeds 19001 to 19003",
+    )
     held_elsewhere: tuple[float, float] = calibrated(
-        (0.77, 0.87),
+        (0.68, 0.88),
         "-",
         "Part of declared gaps of other laboratories whose answer sets held the truth: the least, and the most of any.",
         source=_ELSEWHERE,
