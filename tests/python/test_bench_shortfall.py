@@ -35,11 +35,22 @@ def _class(layout):
     return why(layout, case)
 
 
-@pytest.mark.parametrize("led", [["damage"], ["unknown"]])
-def test_what_leads_once_it_is_told_was_not_found_by_the_search(locking, tmp_path, led):
-    found = _class(_sealed(locking, tmp_path, led))
+def test_what_leads_once_it_is_told_was_not_found_by_the_search(locking, tmp_path):
+    found = _class(_sealed(locking, tmp_path, ["damage"]))
     assert found.what == "search", found.line
     assert found.both.startswith("finite_extensibility")
+
+
+def test_an_unknown_in_place_of_what_leads_once_it_is_told_is_the_search(tmp_path):
+    """A structural softening, sqrt(lambda) of 188."""
+    found = _class(_sealed(industry.make(11, 12, "develop", "single"), tmp_path, ["unknown"]))
+    assert found.what == "search", found.line
+    assert found.both.startswith("structural_softening")
+
+
+def test_an_unknown_that_stays_ahead_of_what_is_told_is_evidence(locking, tmp_path):
+    """The form leaves nothing, and an unknown is some log units ahead of it."""
+    assert _class(_sealed(locking, tmp_path, ["unknown"])).what == "evidence: an unknown"
 
 
 def test_a_form_that_cannot_follow_the_gap_is_the_form(locking, tmp_path):
