@@ -86,6 +86,13 @@ def test_a_campaign_outside_says_so_though_there_is_no_gap():
     assert "warning: the probabilities were calibrated on other campaigns" in found.summary()
 
 
+def test_another_law_lies_outside(monkeypatch):
+    extent = Extent(4, (300.0, 300.0), (0.001, 0.001), (0.0, 0.0), gap=2.0, scatter=0.0, law="another law")
+    monkeypatch.setattr(calibration_check, "extent_of", lambda *_: extent)
+    found = calibration_check.check_calibration(SimpleNamespace())
+    assert found.why == ("another law, where the modal law is covered",)
+
+
 def test_a_large_misfit_is_told_without_a_power_of_ten(monkeypatch):
     extent = Extent(
         records=4,

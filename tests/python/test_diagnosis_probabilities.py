@@ -247,9 +247,27 @@ def test_an_unknown_effect_does_not_lead_where_known_ones_have_plainly_more_evid
     if not cut:
         assert chance == pytest.approx(free)
         return
-    assert chance[("unknown",)] == pytest.approx(0.2)
+    assert chance[("unknown",)] == pytest.approx(0.2 * (1.0 - chance[()]))
     assert sum(chance.values()) == pytest.approx(1.0)
     assert chance[tuple(NAMES[:2])] / chance[(NAMES[0],)] == pytest.approx(free[tuple(NAMES[:2])] / free[(NAMES[0],)])
+
+
+@pytest.mark.parametrize("most", [0.2, 0.0])
+def test_the_limit_of_an_unknown_holds_where_a_gap_is_declared(most):
+    """ "None" has a quarter of the weight before the test takes it away."""
+    pair = hypothesis(*(Cause(made(name), made(name).forms[0]) for name in NAMES[:2]), log_evidence=10.0)
+    found = [hypothesis(unknown=5.0), *(alone(name, log_evidence=-5.0) for name in NAMES[:2]), pair]
+    weighed = given_a_gap(probabilities_of(found, len(NAMES), replace(OTHERS, most_unknown=most)), 1e-6)
+    chance = {each.effects: each.probability for each in weighed}
+    assert chance[("unknown",)] == pytest.approx(most, abs=1e-4)
+    assert weighed[0].effects != ("unknown",)
+
+
+def test_three_effects_have_odds_of_their_own():
+    causes = [Cause(made(name), made(name).forms[0]) for name in NAMES[:3]]
+    found = [hypothesis(), alone(NAMES[3], log_evidence=40.0), hypothesis(*causes, log_evidence=40.0)]
+    chance = {each.effects: each.probability for each in probabilities_of(found, len(NAMES), OTHERS)}
+    assert chance[tuple(NAMES[:3])] / chance[(NAMES[3],)] == pytest.approx(OTHERS.three)
 
 
 def test_where_forms_are_others_a_rare_effect_is_as_probable_as_any():

@@ -83,7 +83,8 @@ class OtherForms:
         Odds of an effect outside the catalogue alone and jointly with known ones.
     most_unknown : float
         Most that an effect outside the catalogue keeps alone where known effects have plainly more evidence: it stands
-        for all smooth functions, and is near to the best explanation of any large gap.
+        for all smooth functions, and is near to the best explanation of any large gap. "None" is left aside: where a
+        gap is declared, the test leaves it next to nothing.
     """
 
     fall: float
@@ -102,8 +103,9 @@ class OtherForms:
         weights = {names: self._log_weight(names, best - own) for names, own in log_evidence.items()}
         known = max((own for names, own in log_evidence.items() if names and UNKNOWN not in names), default=-np.inf)
         if self.most_unknown < 1.0 and known - log_evidence.get(ALONE, np.inf) >= CALIBRATED.plain_lead:
-            others = logsumexp([own for names, own in weights.items() if names != ALONE])
-            weights[ALONE] = min(weights[ALONE], others + log(self.most_unknown / (1.0 - self.most_unknown)))
+            others = logsumexp([own for names, own in weights.items() if names and names != ALONE])
+            most = max(self.most_unknown, EVIDENCE.least_p_value)
+            weights[ALONE] = min(weights[ALONE], others + log(most / (1.0 - most)))
         return np.array(list(weights.values()))
 
     def _log_weight(self, names: Effects, distance: float) -> float:

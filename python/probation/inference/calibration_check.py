@@ -50,11 +50,14 @@ class CalibrationCheck:
         """One sentence where the campaign lies outside, else none."""
         if self.inside:
             return ()
-        low, high = (percentage(part) for part in CALIBRATED.held_elsewhere)
+        held, right, said = (
+            " to ".join(percentage(part) for part in parts)
+            for parts in (CALIBRATED.held_elsewhere, CALIBRATED.right_elsewhere, CALIBRATED.said_elsewhere)
+        )
         return (
-            f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): evidence counts for less, "
-            "and answer sets are larger; so weighed, what laboratories of others had made came true about as often as "
-            f"was said, and the truth was in {low} to {high} % of answer sets",
+            f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): evidence counts for less; "
+            f"in laboratories of others what led was said with {said} % and right in {right} % of gaps, and the truth "
+            f"was in {held} % of the answer sets",
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -110,7 +113,7 @@ def extent_of(base: BaseFit) -> Extent:
         _ends(strain),
         misfit / max(noise, 1e-300),
         max(base.scatter.deviations, default=0.0),
-        CALIBRATED.law if isinstance(law, DnlrLaw) else "another law",
+        "modal law" if isinstance(law, DnlrLaw) else "another law",
     )
 
 

@@ -73,6 +73,15 @@ class CalibratedRanges:
         "Lead of the best known explanation over an effect outside the catalogue from which on that holds.",
         source="docs/laboratories-seeds.md, plain single effects: seeds 19001 to 19003",
     )
+    said_elsewhere: tuple[float, float] = calibrated(
+        (0.44, 0.67),
+        "probability",
+        "Of what leads, in the mean over declared gaps of other laboratories: the least, and the most of any.",
+        source=_ELSEWHERE,
+    )
+    right_elsewhere: tuple[float, float] = calibrated(
+        (0.38, 0.74), "-", "Part of these gaps in which it was right, likewise.", source=_ELSEWHERE
+    )
     held_elsewhere: tuple[float, float] = calibrated(
         (0.68, 0.89),
         "-",
