@@ -2,7 +2,7 @@
 
 `python -m bench.blind_tempering DIR` after `probation blind make --split calibrate` and `solve`: seconds. Where a gap
 is declared, the log evidence that answers state is taken to other powers; the one with the best mean log score, and
-whose probabilities come true, is `EVIDENCE.evidence_power` of diagnosis/trust.py. For the others the p-value of
+whose probabilities come true, is `EVIDENCE.evidence_power` of settings/evidence.py. For the others the p-value of
 the gap test speaks as if gaps that are not declared had other distributions of it: `EVIDENCE.undeclared_gap_power`.
 Explanations that an answer does not list count as 1e-4; look-alikes from outside are left out, as in the calibration
 error.

@@ -24,9 +24,9 @@ import numpy as np
 from scipy.optimize import minimize
 
 from bench.answered import answered
-from bench.laboratories import between, calibration_error, rate, scored
+from bench.laboratories import NAMED, calibration_error, named, rate, scored
 from bench.one_line import one_line
-from bench.reweighed import Gap, gap_in
+from bench.reweighed import Gap, declared, gap_in
 from probation.diagnosis.trust import OtherForms, trust_in
 from probation.inference.calibration_check import CalibrationCheck
 from probation.settings.calibrated import CALIBRATED
@@ -46,9 +46,7 @@ LEAST = 1e-4
 PLAIN = 100.0
 START = OtherForms(fall=0.5, unknown_power=0.01, two=0.1, three=0.01, unknown=0.1, unknown_with_known=0.001)
 HEAD = (
-    "laboratory left out", "weights", "campaigns", "single, resolvable: named", "P of the truth",
-    "pairs, resolvable: named", "unknown found, √λ left of 8", "95 % sets that hold the gap's truth",
-    "their size, over the oracle's", "calibration error", "said", "right", "mean log score",
+    "laboratory left out", "weights", "campaigns", *NAMED, "calibration error", "said", "right", "mean log score",
 )  # fmt: skip
 STRATA = (
     "laboratory left out", "the best explanation gains", "gaps", "95 % sets hold", "their size",
@@ -146,7 +144,7 @@ def answered_in(folders: Iterable[Path]) -> list[Answered]:
         own = found.setdefault(name, Answered(name, [], []))
         for case, diagnosis in answered(layout):
             own.cases.append(case)
-            if diagnosis is not None and case.causes and case.answer.gap and not diagnosis["calibration"]["inside"]:
+            if declared(case, diagnosis) and not diagnosis["calibration"]["inside"]:
                 own.gaps.append(gap_in(name, case, diagnosis))
     return list(found.values())
 
@@ -191,18 +189,11 @@ def level_of(found: Sequence[Judged]) -> float:
 def row(own: Answered, name: str, found: Sequence[Judged]) -> list[str]:
     """Scores of a laboratory under some weights."""
     scores = scored(own.laboratory, [*own.others, *(each.case for each in found)])["scores"]["answers"]
-    resolvable, sets = scores["resolvable_by_stratum"], scores["gaps"]["answer_set"]
-    single, size, least = resolvable["single"], sets["mean_size"], sets["oracle_mean_size"]
     return [
         own.laboratory,
         name,
         str(len(own.cases)),
-        rate(single["top1"]),
-        between(single["probability_on_truth"], single["probability_on_truth_interval95"]),
-        rate(resolvable["pair"]["top1"]),
-        rate(scores["unknown"]["found_clear"]),
-        rate(sets["coverage"]),
-        between(size / least if size and least else None, sets.get("over_oracle", {}).get("interval95")),
+        *named(scores),
         calibration_error(reliability([each.case for each in found])),
         f"{np.mean([max(each.stated.values()) for each in found]):.2f}",
         f"{np.mean([each.right for each in found]):.2f}",

@@ -27,11 +27,14 @@ if TYPE_CHECKING:
 
     from probation_studies.blind.scores.case import Case
 
+NAMED = (
+    "single, resolvable: named", "P of the truth", "pairs, resolvable: named", "unknown found, √λ left of 8",
+    "95 % sets that hold the gap's truth", "their size, over the oracle's",
+)  # fmt: skip
 HEAD = (
     "laboratory", "campaigns", "seeds", "false alarms, specimens alike", "false alarms, specimens differ",
     "false alarms, scatter from replicates", "false alarms, strain noise to 5e-4",
-    "single, resolvable: named", "P of the truth", "pairs, resolvable: named", "unknown found, √λ left of 8",
-    "95 % sets that hold the gap's truth", "their size, over the oracle's", "calibration error",
+    *NAMED, "calibration error",
     "held-out explained fraction, over the oracle's",
 )  # fmt: skip
 CLASSES = {"by_strain_noise": "strain noise", "by_strength": "√λ"}
@@ -45,10 +48,8 @@ SAID = ("folder", "seeds", "declared gaps", "said", "right")
 
 def row(content: dict) -> list[str]:
     scores = content["scores"]["answers"]
-    nulls, resolvable = scores["false_alarms_by_kind"], scores["resolvable_by_stratum"]
-    single, sets = resolvable["single"], scores["gaps"]["answer_set"]
+    nulls = scores["false_alarms_by_kind"]
     held_out = scores["closure"]["held_out"]["over_oracle"]
-    size, least = sets["mean_size"], sets["oracle_mean_size"]
     laboratory, seeds = source(content)
     return [
         laboratory,
@@ -58,14 +59,23 @@ def row(content: dict) -> list[str]:
         rate(nulls["differing"]),
         rate(nulls.get("replicates")),
         rate(nulls["strain_noise_to_5e-4"]),
+        *named(scores),
+        calibration_error(scores["reliability"]),
+        f"{between(held_out['value'], held_out['interval95'])}, n = {held_out['n']}",
+    ]
+
+
+def named(scores: dict) -> list[str]:
+    """Which causes are named, how probable the truth is, and what the answer sets hold."""
+    resolvable, sets = scores["resolvable_by_stratum"], scores["gaps"]["answer_set"]
+    single, size, least = resolvable["single"], sets["mean_size"], sets["oracle_mean_size"]
+    return [
         rate(single["top1"]),
         between(single["probability_on_truth"], single["probability_on_truth_interval95"]),
         rate(resolvable["pair"]["top1"]),
         rate(scores["unknown"]["found_clear"]),
         rate(sets["coverage"]),
         between(size / least if size and least else None, sets.get("over_oracle", {}).get("interval95")),
-        calibration_error(scores["reliability"]),
-        f"{between(held_out['value'], held_out['interval95'])}, n = {held_out['n']}",
     ]
 
 

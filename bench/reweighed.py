@@ -100,11 +100,12 @@ def gaps_of(folder: Path) -> list[Gap]:
     """Declared gaps with a cause."""
     layout = Layout(folder)
     laboratory = str(layout.published()[0]["laboratory"])
-    return [
-        gap_in(laboratory, case, diagnosis)
-        for case, diagnosis in answered(layout)
-        if diagnosis is not None and case.causes and case.answer.gap
-    ]
+    return [gap_in(laboratory, case, diagnosis) for case, diagnosis in answered(layout) if declared(case, diagnosis)]
+
+
+def declared(case: Case, diagnosis: Mapping[str, Any] | None) -> bool:
+    """Whether there is an answer that declares a gap, and the gap has a cause."""
+    return diagnosis is not None and bool(case.causes) and case.answer.gap
 
 
 def gap_in(laboratory: str, case: Case, diagnosis: Mapping[str, Any]) -> Gap:
@@ -116,7 +117,7 @@ def gap_in(laboratory: str, case: Case, diagnosis: Mapping[str, Any]) -> Gap:
         If the answer states no log evidence.
     """
     causes = [each for each in diagnosis["causes"] if each.get("log_evidence") is not None]
-    if not causes:
+    if not any(each["effects"] == [] for each in causes):
         raise InputError(f"{case.name}: found no log_evidence in its answer, expected it; solve with this version")
     evidence = {tuple(sorted(each["effects"])): float(each["log_evidence"]) for each in causes}
     return Gap(laboratory, case, diagnosis["gap"]["p_value"], diagnosis["calibration"]["inside"], evidence)

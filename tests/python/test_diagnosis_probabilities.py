@@ -213,7 +213,7 @@ def test_where_forms_are_others_odds_fall_with_a_power_of_the_distance(behind, r
 
 
 def test_where_forms_are_others_more_effects_need_more_evidence():
-    """Two that describe the records as well as one have a tenth of its odds; an unknown one beside it fewer still."""
+    """Two that describe the records as well as one have a tenth of its odds; an unknown one with it fewer still."""
     first, second = (made(name) for name in NAMES[:2])
     pair = hypothesis(*(Cause(each, each.forms[0]) for each in (first, second)), log_evidence=300.0)
     found = [hypothesis(unknown=300.0), alone(NAMES[0], log_evidence=300.0, unknown=300.0), pair]
@@ -311,6 +311,7 @@ def named(*chances):
 
 
 def test_an_answer_set_is_the_shortest_list_that_holds_its_probability():
+    assert EVIDENCE.credible_set == 0.95
     assert answer_set(named(0.6, 0.3, 0.08, 0.02), 0.95) == (("a",), ("b",), ("c",))
     assert answer_set(named(0.97, 0.03), 0.95) == (("a",),)
     assert answer_set(named(0.5, 0.5), 0.95) == (("a",), ("b",))

@@ -93,24 +93,7 @@ def chances_of(
     count: int,
     trust: Trust,
 ) -> dict[tuple[str, ...], float]:
-    """Probabilities of explanations by their evidence and by what was probable beforehand.
-
-    Parameters
-    ----------
-    log_evidence : mapping
-        Of every explanation, () among them, but for a constant.
-    log_odds : mapping
-        Of its effects relative to usual ones, beforehand.
-    count : int
-        Of the catalogue.
-    trust : Trust
-        How far evidence counts.
-
-    Returns
-    -------
-    dict
-        They sum to 1, in the order of `log_evidence`.
-    """
+    """Probabilities of explanations, in the order of `log_evidence`; arguments as of `Trust.log_weights`."""
     chances = softmax(trust.log_weights(log_evidence, log_odds, count))
     return dict(zip(log_evidence, chances.tolist(), strict=True))
 
