@@ -54,7 +54,6 @@ TAKEN_AWAY: dict[str, dict[str, object]] = {
     "power of a gap that is not declared": {"evidence.undeclared_gap_power": 1.0},
     "rarity of the same effect in another record": {"evidence.again_in_another_record": 1.0},
     "a second effect, unseen": {"evidence.unseen_second_effect": 1e-9, "evidence.noted_with_others": 1.0},
-    "a gap left goes to an unknown": {"evidence.left_to_an_unknown": 1e-9},
     "choice between forms of one effect by their fit": {"evidence.about_as_probable": 0.0},
     "penalty of a worse held-out record": {"evidence.held_out_penalty": 1.0},
     "largest misfit that an explanation may leave": {"evidence.most_left": NEVER},

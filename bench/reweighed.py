@@ -1,7 +1,6 @@
 """Answers weighed anew by the log evidence that they state, as if evidence were trusted otherwise.
 
-What is known only while records are at hand stays as the answer has it: which explanation is left to an unknown, and
-none is refused by a record that was held out.
+What is known only while records are at hand is left out: none is refused by a record that was held out.
 """
 
 from __future__ import annotations
@@ -17,13 +16,11 @@ from probation.diagnosis.probabilities import (
     chances_of,
     effect_count,
     given_a_gap,
-    with_unknown_leading,
     with_unseen,
 )
 from probation.effects.registry import effects
 from probation.errors import InputError
 from probation_studies.blind.layout import Layout
-from probation_studies.blind.scores.answer import UNKNOWN
 from probation_studies.blind.scores.case import Case
 
 if TYPE_CHECKING:
@@ -78,18 +75,11 @@ class Gap:
         """Of effects that are rare."""
         return {names: sum(log(KNOWN[name].odds) for name in names if name in KNOWN) for names in self.log_evidence}
 
-    @property
-    def left_to_an_unknown(self) -> Names | None:
-        """The explanation that the answer leaves to an unknown jointly with it, if one leads so."""
-        top = self.case.answer.top
-        return tuple(name for name in top if name != UNKNOWN) if UNKNOWN in top and len(top) > 1 else None
-
     def weighed(self, trust: Trust) -> list[Weighed]:
         """Explanations that were fitted, the most probable first: the answer set is taken from them."""
         chances = chances_of(self.log_evidence, self.log_odds, self.count, trust)
         found = [Weighed(names, chance, None) for names, chance in chances.items()]
-        found = given_a_gap(sorted(found, key=lambda each: -each.probability), self.p_value)
-        return with_unknown_leading(found) if found[0].effects == self.left_to_an_unknown else found
+        return given_a_gap(sorted(found, key=lambda each: -each.probability), self.p_value)
 
     def stated(self, found: list[Weighed]) -> dict[Names, float]:
         """Probabilities as an answer states them: with pairs whose second effect was not tried."""

@@ -179,7 +179,7 @@ def undiagnosed():
 def test_a_diagnosis_without_an_explanation_describes_what_is_left(undiagnosed, tmp_path):
     found = undiagnosed
     assert found.verdict == "unexplained"
-    assert "; what is left is a function of the largest strain so far, on unloading" in found.headline
+    assert "; the gap is a function of the largest strain so far, on unloading" in found.headline
     told = json.loads(found.to_json())["remainder"]
     assert told["depends_on"][0]["variable"] == "largest_strain"
     assert told["depends_on"][0]["when"] == "unloading_and_reloading"

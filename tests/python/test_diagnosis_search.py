@@ -115,7 +115,7 @@ def test_nothing_less_beats_what_leads_in_the_end(made, monkeypatch):
             assert least[whole] <= least[part] + 2.0 * SEARCH.settled
 
     search = Search(causes.base, causes.considered)
-    leader, model = causes.best, causes.best.refit.model
+    leader, model = causes.nearest, causes.nearest.refit.model
     base, values = model.split(leader.refit.parameters)
     jobs = []
     for size in range(1, len(values)):

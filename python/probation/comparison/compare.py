@@ -138,7 +138,10 @@ def compare(
         campaign=campaign.name,
         reference=reference.campaign.name,
         verdict=verdict,
-        headline=with_budget(headline(explanations[0], len(kept.records), reference.campaign.name), causes.cut_text),
+        headline=with_budget(
+            headline(explanations[0], len(kept.records), reference.campaign.name, left=causes.verdict == "unexplained"),
+            causes.cut_text,
+        ),
         pairs=together,
         explanations=explanations,
         answer_set=leading(explanations),
@@ -150,7 +153,9 @@ def compare(
                 record_curves.true_strain,
                 record_curves.data - record_curves.base,
                 record_curves.noise,
-                None if record_curves.explained is None else record_curves.explained - record_curves.base,
+                None
+                if record_curves.explained is None or verdict == "unknown_change"
+                else record_curves.explained - record_curves.base,
             )
             for name, record_curves in curves.items()
         },

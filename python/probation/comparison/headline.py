@@ -20,14 +20,15 @@ def named(each: ChangeExplanation) -> str:
     return " and ".join(sorted(words, key=lambda word: word.startswith("something")))
 
 
-def headline(best: ChangeExplanation, count: int, reference: str) -> str:
-    """One sentence."""
+def headline(best: ChangeExplanation, count: int, reference: str, *, left: bool = False) -> str:
+    """One sentence; `left` says that the change leaves more than noise."""
     probable = f"(probability {chance(best.probability)})"
     if not best.effects:
         return f"Nothing changed since {reference} {probable}."
     where = "all records" if len(best.records) == count and count > 1 else ", ".join(best.records)
     sizes = "; ".join(sized(parameter) for parameter in best.parameters[:3])
-    return f"Since {reference}: {named(best)} in {where} {probable}" + (f": {sizes}." if sizes else ".")
+    more = "; it leaves more than noise" if left and "unknown" not in best.effects else ""
+    return f"Since {reference}: {named(best)} in {where} {probable}" + (f": {sizes}" if sizes else "") + f"{more}."
 
 
 def sized(each: ChangedParameter) -> str:

@@ -82,7 +82,7 @@ class EffectShare:
 
 @dataclass(frozen=True)
 class Attribution:
-    """The best explanation taken apart.
+    """The explanation that goes furthest taken apart: the best one, or `Causes.nearest` where an unknown leads alone.
 
     Attributes
     ----------
@@ -92,7 +92,8 @@ class Attribution:
         The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
         and leave no more than `EVIDENCE.most_left` times what it leaves, or the noise; by share. Effects that can stand
         in for each other are named, too, where all act with `EVIDENCE.credible_set`. All effects where there are no
-        shares, and where the misfit in MPa falls with these but not with all, or the other way round.
+        shares, and where the misfit in MPa falls with these but not with all, or the other way round; none where an
+        unknown effect leads alone.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float
@@ -112,7 +113,12 @@ class Attribution:
 
 
 def attribution(
-    base: BaseFit, weighed: Sequence[Weighed], found: Sequence[Hypothesis], closure: Closure, threads: int
+    base: BaseFit,
+    weighed: Sequence[Weighed],
+    nearest: Hypothesis,
+    found: Sequence[Hypothesis],
+    closure: Closure,
+    threads: int,
 ) -> Attribution:
     """Probability and share of every effect.
 
@@ -121,15 +127,17 @@ def attribution(
     base : BaseFit
     weighed : sequence of Weighed
         All explanations, the most probable first.
+    nearest : Hypothesis
+        As far as known effects come, `Causes.nearest`.
     found : sequence of Hypothesis
         All forms and places that were refitted.
     closure : Closure
-        Of the best explanation, on the records that were fitted.
+        Of the nearest, on the records that were fitted.
     threads : int
     """
     best = weighed[0]
-    known = best.hypothesis.effects if best.effects else ()
-    parts = _parts(base, best.hypothesis, known, found, threads)
+    known = nearest.effects if best.effects else ()
+    parts = _parts(base, nearest, known, found, threads)
     squares = _squares(base, parts)
     floor = 1.0 if _differ(base) else closure.noise_MPa**2
     named, after = known, closure.after_MPa
@@ -151,10 +159,10 @@ def attribution(
     for name in dict.fromkeys([*best.effects, *(name for explanation in weighed for name in explanation.effects)]):
         probability = min(sum(explanation.probability for explanation in weighed if name in explanation.effects), 1.0)
         inside = name in known and bool(closed)
-        if name not in best.effects and probability < EVIDENCE.probability_worth_naming:
+        if name not in {*best.effects, *known} and probability < EVIDENCE.probability_worth_naming:
             continue
         share = shares.get(name, 0.0) if closed else None
-        if name == UNKNOWN and UNKNOWN in best.effects and closed:
+        if name == UNKNOWN and closed:
             share = max(1.0 - closed[known], 0.0)
         entries.append(
             EffectShare(
@@ -164,7 +172,7 @@ def attribution(
                 alone=closed[(name,)] if inside else None,
                 in_addition=closed[known] - closed[_without(known, name)] if inside else None,
                 records=_records(name, weighed),
-                named=name in named,
+                named=name in named and best.effects != (UNKNOWN,),
                 interchangeable=name in undivided,
             )
         )

@@ -18,8 +18,6 @@ from probation.diagnosis.probabilities import (
     given_no_gap,
     leading,
     probabilities_of,
-    with_unknown,
-    with_unknown_leading,
     with_untried,
 )
 from probation.diagnosis.remaining import leaves_too_much, remaining_gap
@@ -75,9 +73,12 @@ class Causes:
     cut: CutShort | None = None
 
     @property
-    def best(self) -> Hypothesis:
-        """What stands for the most probable explanation."""
-        return self.weighed[0].hypothesis
+    def nearest(self) -> Hypothesis:
+        """As far as known effects come: the most probable explanation, with any if an unknown effect leads alone."""
+        first = self.weighed[0]
+        if first.effects != (UNKNOWN,):
+            return first.hypothesis
+        return next((each.hypothesis for each in self.weighed if each.hypothesis.causes), first.hypothesis)
 
     @property
     def untried(self) -> tuple[str, ...]:
@@ -85,7 +86,8 @@ class Causes:
 
         It would not where the best explanation leaves nothing, and all of as many effects were tried.
         """
-        if self.cut is None or (self.verdict == "explained" and len(self.best.effects) <= self.cut.completed):
+        fewest = len(self.weighed[0].hypothesis.effects)
+        if self.cut is None or (self.verdict == "explained" and fewest <= self.cut.completed):
             return ()
         return tuple(effect.name for effect in self.considered if effect.name not in self.cut.ended)
 
@@ -102,27 +104,13 @@ class Causes:
         """What was left out."""
         return skipping.entries(self.found, {} if self.cut is None else dict.fromkeys(self.untried, self.cut.why))
 
-    def with_unknown_added(self) -> Causes:
-        """The best explanation with its checks, also where it leads only together with an unknown effect."""
-        known = self.weighed[0].effects
-        kept = dict(self.checks)
-        if known in kept:
-            kept.setdefault(with_unknown(known), kept[known])
-        weighed = with_unknown_leading(self.weighed)
-        verdict: Verdict = "unexplained" if UNKNOWN in weighed[0].effects else self.verdict
-        return replace(self, weighed=weighed, checks=kept, verdict=verdict)
-
     def shrunk(
         self, located: Sequence[Located], skipping: Skipping, *, seed: int
     ) -> tuple[Causes, Shrink, dict[str, RecordCurves]]:
-        """How far the gap shrinks (`shrink_of`), and the causes: an unknown effect gains where much is left."""
-        causes = self
-        shrink, curves = shrink_of(causes.base, causes.best, located, skipping, seed=seed)
-        while causes.verdict != "no_gap" and UNKNOWN not in causes.weighed[0].effects and leaves_too_much(shrink):
-            before, causes = causes.best, causes.with_unknown_added()
-            if causes.best is not before:
-                shrink, curves = shrink_of(causes.base, causes.best, located, skipping, seed=seed)
-        return causes, shrink, curves
+        """How far the gap shrinks (`shrink_of`), and the causes: unexplained where too much is left."""
+        shrink, curves = shrink_of(self.base, self.nearest, located, skipping, seed=seed)
+        left = self.verdict == "explained" and leaves_too_much(shrink)
+        return replace(self, verdict="unexplained") if left else self, shrink, curves
 
 
 def causes_of(
@@ -172,12 +160,10 @@ def causes_of(
     weighed = account.ranked(given_a_gap(weighed, p_value))
     left, checked = _judged(leading(weighed), base, account, seed)
     best = weighed[0]
-    verdict: Verdict = "unexplained" if left or UNKNOWN in best.effects else "explained"
-    causes = Causes(base, considered, hypotheses, weighed, checked, verdict, cut)
-    if UNKNOWN in best.effects:
-        return causes
-    more = bool(account.worse(best.hypothesis)) or _another_acts(best.hypothesis, base, seed)
-    return causes.with_unknown_added() if more else causes
+    more = (
+        UNKNOWN in best.effects or left or account.worse(best.hypothesis) or _another_acts(best.hypothesis, base, seed)
+    )
+    return Causes(base, considered, hypotheses, weighed, checked, "unexplained" if more else "explained", cut)
 
 
 def _searched(

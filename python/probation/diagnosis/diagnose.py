@@ -178,8 +178,10 @@ def diagnose(
     if gap.exists:
         weighed = causes.with_untried(with_unseen(weighed, considered))
     best, explanations = weighed[0], explanations_of(weighed, causes.checks)
-    parts = attribution(base, weighed, hypotheses, shrink.identify, workers)
-    left = _left(base, best.hypothesis, shrink.identify, campaign) if gap.exists else None
+    parts = attribution(base, weighed, causes.nearest, hypotheses, shrink.identify, workers)
+    alone = best.effects == (UNKNOWN,)
+    unclosed = replace(shrink.identify, after_MPa=shrink.identify.before_MPa) if alone else shrink.identify
+    left = _left(base, best.hypothesis, unclosed, campaign) if gap.exists else None
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     done(0.75, "choosing the next test")
     following, apart = (
@@ -200,12 +202,13 @@ def diagnose(
                     chosen,
                     shrink,
                     gap,
-                    worse=made_worse(best.hypothesis, base, seed=seed) if gap.exists else (),
+                    worse=made_worse(causes.nearest, base, seed=seed) if gap.exists else (),
                     judge=case.judge,
                     tolerance=tolerance,
                     cut=causes.cut is not None,
                 ),
                 left if gap.matters(tolerance) else None,
+                "the gap" if alone else "what is left",
             ),
             causes.cut_text if gap.matters(tolerance) else "",
         ),

@@ -64,7 +64,7 @@ def headline(
     explanations, parts, answer_set, shrink, gap
         What was found.
     worse : sequence of Worse
-        Held-out records that the best explanation predicts worse than the base law.
+        Held-out records that the best explanation, or the nearest, predicts worse than the base law.
     judge : str, optional
         The predicted record that no cause was fitted to, where others were.
     tolerance : float
@@ -72,7 +72,7 @@ def headline(
     cut : bool
         Whether the budget ended the search.
     """
-    identify, best = shrink.identify, explanations[0]
+    identify = shrink.identify
     fitted = len(shrink.records) - len(gap.held_out)
     records = "the one record" if fitted == 1 else f"all {fitted} records"
     if verdict == "no_gap":
@@ -89,9 +89,9 @@ def headline(
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)
     count = len(shrink.records) - (shrink.held_out is not None)
-    clause = _cause(verdict, explanations, parts, answer_set, identify, count, cut)
+    clause = _cause(verdict, explanations, parts, answer_set, shrink, count, cut)
     if worse:
-        clause = _refused(best, identify, worse, cut)
+        clause = f"{_nothing(cut)}; {_with(shrink)}, but {' and '.join(record.text for record in worse)}"
     if gap.in_fitted:
         missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if verdict == "explained":
@@ -136,34 +136,41 @@ def _cause(
     explanations: Sequence[Explanation],
     parts: Attribution,
     answer_set: Sequence[tuple[str, ...]],
-    identify: Closure,
+    shrink: Shrink,
     record_count: int,
     cut: bool,
 ) -> str:
     """What explains the gap, or does not, without a full stop."""
-    best = explanations[0]
+    best, identify = explanations[0], shrink.identify
     touched = [name for name in best.records if any(name in part.records for part in parts.effects if part.named)]
     place = f" in {listed(touched, 'and')}" if 0 < len(touched) < record_count else ""
-    known = parts.named if verdict == "explained" or _close_some(parts, identify) else ()
     fall = f"the misfit {change(identify.before_MPa, parts.after_MPa)}, the noise being {identify.noise_MPa:.2g} MPa"
-    pronoun = "it" if len(known) == 1 else "them"
-    if verdict == "unexplained":
-        if known and cut:
-            return f"{_nothing(cut)}; with {titles(known)}{place} {fall}"
-        if known:
-            verb = "is" if len(known) == 1 else "are"
-            if {*best.effects} - {*known} - {UNKNOWN}:  # `shrink` is with all of them
-                fall = f"with {pronoun} alone {fall}"
-            left = (
-                "something outside the catalogue is left"
-                if parts.after_MPa > identify.noise_MPa
-                else "what is left takes a course that noise does not: something outside the catalogue acts, too"
-            )
-            return f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)}), but {left}"
-        if best.effects == (UNKNOWN,) and (enough := _enough(explanations, answer_set)):
-            shown = ", ".join(choices([effects]) for effects in enough[:MOST_RIVALS])
-            return f"{shown}{_more(enough)} or {title(UNKNOWN)} may explain it; these tests cannot tell which"
+    if parts.after_MPa > identify.before_MPa:  # evidence is of each sample by its noise
+        fall = f"the misfit falls where each sample counts by its noise; else {fall.removeprefix('the misfit ')}"
+    if verdict == "explained":
+        return _explains(best, parts, answer_set, place, fall, cut)
+    if _close_some(parts, identify):
+        return _is_part(best, parts, answer_set, identify, place, fall, cut)
+    if best.effects != (UNKNOWN,):
         return _nothing(cut)
+    if enough := _enough(explanations, answer_set):
+        shown = ", ".join(choices([effects]) for effects in enough[:MOST_RIVALS])
+        return f"{shown}{_more(enough)} or {title(UNKNOWN)} may explain it; these tests cannot tell which"
+    closes = identify.after_MPa < identify.before_MPa and (identify.closure or 0.0) >= EVIDENCE.share_worth_naming
+    nearest = f", which {'comes' if len(shrink.effects) == 1 else 'come'} nearest,"
+    return f"{_nothing(cut)}; {_with(shrink, nearest)}" if closes else _nothing(cut)
+
+
+def _explains(
+    best: Explanation,
+    parts: Attribution,
+    answer_set: Sequence[tuple[str, ...]],
+    place: str,
+    fall: str,
+    cut: bool,
+) -> str:
+    """Of an explanation that leaves nothing."""
+    known, pronoun = parts.named, "it" if len(parts.named) == 1 else "them"
     verb = "explains" if len(known) == 1 else "explain"
     sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"
     if cut:
@@ -172,16 +179,54 @@ def _cause(
         sentence += (
             f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
         )
-    rivals = [effects for effects in answer_set if not {*known} <= {*effects}]
+    return sentence + (_rivals(known, answer_set) or f" (probability {chance(parts.probability)})")
+
+
+def _is_part(
+    best: Explanation,
+    parts: Attribution,
+    answer_set: Sequence[tuple[str, ...]],
+    identify: Closure,
+    place: str,
+    fall: str,
+    cut: bool,
+) -> str:
+    """Of an explanation that leaves a gap."""
+    known = parts.named
+    if cut:
+        return f"{_nothing(cut)}; with {titles(known)}{place} {fall}"
+    verb, own, pronoun = ("is", "its form differs", "it") if len(known) == 1 else ("are", "their forms differ", "them")
+    rivals = _rivals(known, answer_set)
     if rivals:
-        shown = choices(rivals[:MOST_RIVALS])
-        return f"{sentence}; these tests cannot distinguish {pronoun} from {shown}{_more(rivals)}"
-    return f"{sentence} (probability {chance(parts.probability)})"
+        verb = "may be"
+    if {*best.effects} - {*known} - {UNKNOWN}:  # `shrink` is with all of them
+        fall = f"with {pronoun} alone {fall}"
+    part = f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)})"
+    left = (
+        "more than noise is left"
+        if parts.after_MPa > identify.noise_MPa
+        else "what is left takes a course that noise does not"
+    )
+    return f"{part}, but {left}: {own}, or something else acts, too{rivals}"
 
 
-def _more(rivals: Sequence[tuple[str, ...]]) -> str:
+def _rivals(known: Sequence[str], answer_set: Sequence[tuple[str, ...]]) -> str:
+    """What may act in place of the named effects, as a further clause; empty where nothing may."""
+    rivals = [effects for effects in answer_set if not {*known} <= {*effects}]
+    if not rivals:
+        return ""
+    pronoun = "it" if len(known) == 1 else "them"
+    parts = [effects for effects in rivals if effects and {*effects} < {*known}]
+    others = [effects for effects in rivals if effects not in parts][: max(MOST_RIVALS - len(parts), 1)]
+    shown = [f"{titles(effects)} alone" for effects in parts] + ([choices(others)] if others else [])
+    return (
+        f"; these tests cannot distinguish {pronoun} from {' or '.join(shown)}{_more(rivals, len(parts) + len(others))}"
+    )
+
+
+def _more(rivals: Sequence[tuple[str, ...]], shown: int = MOST_RIVALS) -> str:
     """How many there are besides those that are shown."""
-    return f" (and {len(rivals) - MOST_RIVALS} more)" if len(rivals) > MOST_RIVALS else ""
+    return f" (and {len(rivals) - shown} more)" if len(rivals) > shown else ""
 
 
 def _enough(explanations: Sequence[Explanation], answer_set: Sequence[tuple[str, ...]]) -> list[tuple[str, ...]]:
@@ -203,14 +248,10 @@ def _close_some(parts: Attribution, identify: Closure) -> bool:
     return share >= EVIDENCE.share_worth_naming and parts.after_MPa < identify.before_MPa
 
 
-def _refused(best: Explanation, identify: Closure, worse: Sequence[Worse], cut: bool) -> str:
-    """Of an explanation that the held-out records contradict."""
-    known = titles([name for name in best.effects if name != UNKNOWN])
-    return (
-        f"{_nothing(cut)}; with {known} the misfit "
-        f"{change(identify.before_MPa, identify.after_MPa, 'would ')}, "
-        f"but {' and '.join(record.text for record in worse)}"
-    )
+def _with(shrink: Shrink, which: str = "") -> str:
+    """How far the gap would shrink."""
+    misfit = change(shrink.identify.before_MPa, shrink.identify.after_MPa, "would ")
+    return f"with {titles(shrink.effects)}{which} the misfit {misfit}"
 
 
 def _nothing(cut: bool) -> str:
@@ -254,12 +295,12 @@ def with_budget(headline: str, ended: str) -> str:
     return f"{headline.removesuffix('.')}; {ended}." if ended else headline
 
 
-def with_remainder(headline: str, left: Remainder | None) -> str:
-    """A headline that says on what the rest depends, where anything is left and that is known."""
+def with_remainder(headline: str, left: Remainder | None, what: str = "what is left") -> str:
+    """A headline that says on what the rest, or the gap, depends, where anything is left and that is known."""
     if left is None or not left.depends_on:
         return headline
     first = left.depends_on[0]
     return (
-        f"{headline.removesuffix('.')}; what is left is a function of {function_name(first)} "
+        f"{headline.removesuffix('.')}; {what} is a function of {function_name(first)} "
         f"({percent(first.explained)} of it)."
     )

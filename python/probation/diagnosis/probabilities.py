@@ -250,18 +250,6 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     )
 
 
-def with_unknown_leading(weighed: Sequence[Weighed]) -> list[Weighed]:
-    """Where a gap is left after the best explanation, most of its probability goes to it jointly with an unknown."""
-    best, extended = weighed[0], with_unknown(weighed[0].effects)
-    moved = EVIDENCE.left_to_an_unknown * best.probability
-    known = next((each for each in weighed if each.effects == extended), Weighed(extended, 0.0, best.hypothesis))
-    changed = [
-        replace(best, probability=best.probability - moved),
-        replace(known, probability=known.probability + moved, hypothesis=best.hypothesis),
-    ]
-    return normalised([*changed, *(explanation for explanation in weighed[1:] if explanation.effects != extended)])
-
-
 def normalised(weighed: Sequence[Weighed]) -> list[Weighed]:
     """Probabilities over their sum, most probable first."""
     total = sum(explanation.probability for explanation in weighed)

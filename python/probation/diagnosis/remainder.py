@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Remainder:
-    """What the best explanation leaves, described.
+    """What the best explanation leaves, described; all of the gap where it has no known effect.
 
     Attributes
     ----------
@@ -115,7 +115,8 @@ def remainder_of(
     )
     curve = problem.curve(leading[0].term) if leading else None
     most = max((tried.explained for tried in trials), default=0.0)
-    text = description(closure.after_MPa, closure.noise_MPa, depends_on, curve, most)
+    what = "What is left" if found.model.causes else "The gap"
+    text = description(what, closure.after_MPa, closure.noise_MPa, depends_on, curve, most)
     functions = tuple(
         problem.function(trial.term, dependence, before) for trial, dependence in zip(leading, depends_on, strict=True)
     )

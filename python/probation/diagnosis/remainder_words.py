@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 
 def description(
+    what: str,
     left_MPa: float,
     noise_MPa: float,
     depends_on: Sequence[Dependence],
@@ -27,6 +28,8 @@ def description(
 
     Parameters
     ----------
+    what : str
+        "What is left", or "The gap" where nothing of it is explained.
     left_MPa, noise_MPa : float
     depends_on : sequence of Dependence
     curve : RemainderCurve or None
@@ -34,7 +37,7 @@ def description(
     most : float
         The most that any function explains.
     """
-    size = f"What is left, {left_MPa:.3g} MPa (noise {noise_MPa:.2g} MPa),"
+    size = f"{what}, {left_MPa:.3g} MPa (noise {noise_MPa:.2g} MPa),"
     if not depends_on or curve is None:
         return (
             f"{size} follows no single variable: a free function of the strain, the rate, the time or what else was "

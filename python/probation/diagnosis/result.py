@@ -208,6 +208,9 @@ class Shrink:
         The regions of `where`.
     ceiling : Closure or None
         What any smooth curve through the identify records' residuals could close.
+    effects : tuple of str
+        With which known effects: those of the best explanation; where an unknown effect leads alone, of the most
+        probable one that has any.
     """
 
     identify: Closure
@@ -215,6 +218,7 @@ class Shrink:
     records: Mapping[str, Closure]
     regions: tuple[tuple[Located, Closure], ...]
     ceiling: Closure | None
+    effects: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -254,7 +258,7 @@ class NextTest:
 class Diagnosis(Result, Stored):
     """Where, which, how far.
 
-    `plot` draws every record before and after the best explanation, the regions of the gap marked.
+    `plot` draws every record before and after the explanation that `shrink` tells of, the regions of the gap marked.
 
     Attributes
     ----------
@@ -309,7 +313,8 @@ class Diagnosis(Result, Stored):
     effects : tuple of EffectShare
         How probable each effect is, and how much of the gap it closes; by share.
     remainder : Remainder or None
-        What the best explanation leaves beyond the noise, described; None where it leaves nothing.
+        What the best explanation leaves beyond the noise, described: all of the gap where an unknown effect leads
+        alone. None where it leaves nothing.
     next_tests : tuple of NextTest
         The best test of every kind that helps, the most worth first; where the gap is unexplained, first those that
         settle on what the remainder depends.
@@ -469,6 +474,7 @@ class Diagnosis(Result, Stored):
             "effects": [effect.to_dict() for effect in self.effects],
             "answer_set": [list(effects) for effects in self.answer_set],
             "shrink": {
+                "effects": list(shrink.effects),
                 "identify": shrink.identify.to_dict(),
                 "held_out": None if shrink.held_out is None else shrink.held_out.to_dict(),
                 "records": {name: closure.to_dict() for name, closure in shrink.records.items()},

@@ -1,4 +1,4 @@
-"""How far the gap shrinks with the best explanation, on the records it was found on and on others."""
+"""How far the gap shrinks, on the records that causes were fitted to and on others."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 def shrink_of(
     base: BaseFit,
-    best: Hypothesis,
+    nearest: Hypothesis,
     located: Sequence[Located],
     skipping: Skipping,
     *,
@@ -40,8 +40,8 @@ def shrink_of(
     Parameters
     ----------
     base : BaseFit
-    best : Hypothesis
-        The explanation; the base law where no effect is needed.
+    nearest : Hypothesis
+        The explanation, `Causes.nearest`; the base law where no effect is needed.
     located : sequence of Located
         Regions that are given their own closure.
     skipping : Skipping
@@ -51,8 +51,8 @@ def shrink_of(
     rng = np.random.default_rng(seed)
     everywhere = CampaignModel(base.law, base.views)
     before = everywhere.predict(base.before)
-    causes = best.refit.model.causes
-    after = _predicted(on_all_records(best.refit, base.views), before, skipping) if causes else before
+    causes = nearest.refit.model.causes
+    after = _predicted(on_all_records(nearest.refit, base.views), before, skipping) if causes else before
     noises = {noise.name: noise for noise in base.whitened.noises} | {
         noise.name: noise for noise in base.held_out_noises
     }
@@ -91,6 +91,7 @@ def shrink_of(
         records={name: closure_of([piece], rng) for name, piece in pieces.items()},
         regions=regions,
         ceiling=closure_of([_flexible(pieces[name], base, name) for name in fitted], rng),
+        effects=nearest.effects,
     )
     curves = {
         view.id: RecordCurves(
@@ -122,7 +123,7 @@ def _predicted(explained: OnAllRecords, before: dict[str, FloatArray], skipping:
         try:
             predicted[view.id] = view.sampled(model.recorded(view, base, causes))
         except UNSOLVABLE as error:
-            skipping.part(f"the best explanation's prediction of {view.id}", error)
+            skipping.part(f"the explanation's prediction of {view.id}", error)
     return predicted
 
 

@@ -86,7 +86,8 @@ def _offset(effect: Effect, size: _Size) -> tuple[Form, ...]:
 
 
 def _drift(effect: Effect, size: _Size) -> tuple[Form, ...]:
-    return (_widened(effect.form("over_record"), EFFECTS.large_force * size.force, -size.force, size.force),)
+    most = EFFECTS.largest_drift * size.force
+    return (_widened(effect.form("over_record"), EFFECTS.large_force * size.force, -most, most),)
 
 
 def _compliance(effect: Effect, size: _Size) -> tuple[Form, ...]:

@@ -113,7 +113,7 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
         (
             title(effect.name),
             chance(effect.probability),
-            "–" if effect.name not in diagnosis.best.effects else _share(effect.share),
+            _share(effect.share) if effect.name in {*diagnosis.best.effects, *diagnosis.shrink.effects} else "–",
             _share(effect.alone),
             _share(effect.in_addition),
             "" if set(effect.records) >= {*fitted} else ", ".join(names.get(name, name) for name in effect.records),
@@ -123,6 +123,8 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
     empty = {at for at in (3, 4, 5) if not any(row[at] for row in rows)}
     kept = _kept([max(effect.probability, effect.share or 0.0) for effect in diagnosis.effects], most)
     closing = ", and what it closes of the gap (–: not in the best explanation)"
+    if diagnosis.best.effects == (UNKNOWN,) and diagnosis.shrink.effects:
+        closing = f", and what it closes of the gap with {mended_by(diagnosis)}, the nearest of known effects"
     if any(effect.share is None for effect in diagnosis.effects):
         empty |= {2}
         closing = f"; no shares, the gap is not above {EVIDENCE.closure_gap:g} standard errors of the noise"
@@ -220,11 +222,11 @@ def leading(diagnosis: Diagnosis) -> tuple[Explanation, ...]:
 
 def mended_by(diagnosis: Diagnosis) -> str:
     """What the curves and errors called "after" are made with; empty where nothing of the catalogue helps."""
-    known = tuple(effect for effect in diagnosis.best.effects if effect != UNKNOWN)
-    titles = tuple(
-        title for effect, title in zip(diagnosis.best.effects, diagnosis.best.titles, strict=False) if effect in known
-    )
-    return explanation_name(replace(diagnosis.best, effects=known, titles=titles), diagnosis) if known else ""
+    known = diagnosis.shrink.effects
+    if not known:
+        return ""
+    shown = next(each for each in diagnosis.explanations if {*each.effects} - {UNKNOWN} == {*known})
+    return explanation_name(replace(shown, effects=known, titles=tuple(title(name) for name in known)), diagnosis)
 
 
 def _share(part: float | None) -> str:

@@ -17,6 +17,11 @@ class EffectsSettings:
         "Standard deviation of a gross relative error of the force or the section: a wrong range, a wrong width.",
     )
     large_force: float = chosen(0.2, "largest force", "Standard deviation of a gross error of the force.")
+    largest_drift: float = chosen(
+        0.5,
+        "largest force",
+        "Largest drift of the force within a test: a channel that wanders by more measures no force.",
+    )
     large_zero: float = chosen(
         0.1, "largest true strain", "Standard deviation of a strain that was zeroed at quite another length."
     )

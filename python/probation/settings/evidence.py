@@ -47,11 +47,6 @@ class EvidenceSettings:
         "Prior probability of an effect in one more record, in a form and a size of its own, over that of its not "
         "acting there.",
     )
-    left_to_an_unknown: float = chosen(
-        0.9,
-        "-",
-        "Part of an explanation's probability that goes to it jointly with an unknown where a gap is left after it.",
-    )
     about_as_probable: float = chosen(
         12.0,
         "log evidence",
