@@ -153,6 +153,8 @@ def diagnosed(case: str, known: str, campaign: Campaign, law: CallableLaw | None
     )
     _, sizes = _told(found.best.effects, found.best.parameters)
     where = "" if len(found.best.records) == len(campaign.records) else f" in {', '.join(found.best.records)}"
+    if not shares and found.shrink.effects:
+        shares = f"nothing, {' + '.join(found.shrink.effects)} come nearest"
     answer = f"{found.verdict}: {shares or 'nothing'}{where}"
     size = f"{found.shrink.identify.before_MPa:.3g} → {found.shrink.identify.after_MPa:.3g} MPa; {sizes}"
     return Row(case, known, answer, size, perf_counter() - begun)

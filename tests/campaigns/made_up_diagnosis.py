@@ -186,6 +186,7 @@ def self_heating(heating: float = 0.1, copies: int = 1) -> Diagnosis:
         {name: closure(before[name], after[name]) for name in of_id},
         regions,
         Closure(rms(every), 0.0401, NOISE, 0.9995, (0.999, 1.0), "smooth curve through the residuals"),
+        ("self_heating",),
     )
     return Diagnosis(
         campaign="hdpe-2020",
@@ -256,7 +257,7 @@ def no_gap() -> Diagnosis:
         acts=(),
         signatures=(),
         next_test=None,
-        shrink=replace(found.shrink, ceiling=None),
+        shrink=replace(found.shrink, ceiling=None, effects=()),
         warnings=(),
     )
 
@@ -279,7 +280,7 @@ def unexplained() -> Diagnosis:
         curves={name: replace(each, explained=None) for name, each in found.curves.items()},
         acts=(),
         next_test=None,
-        shrink=replace(found.shrink, identify=fitted, held_out=None, records=still, regions=()),
+        shrink=replace(found.shrink, identify=fitted, held_out=None, records=still, regions=(), effects=()),
     )
 
 

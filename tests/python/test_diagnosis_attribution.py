@@ -432,6 +432,17 @@ def test_how_far_is_told_whatever_the_verdict(nothing, unexplained):
     assert not told["force_offset"].named
 
 
+def test_an_unknown_has_a_share_only_where_it_leads(nothing, two_effects):
+    for found in (nothing, two_effects):
+        assert "unknown" not in found.best.effects
+        assert all(not each.share for each in found.effects if each.name == "unknown")
+
+
+def test_a_gap_is_left_or_not_whatever_the_verdict(nothing, two_effects, unexplained):
+    told = [json.loads(found.to_json())["leaves_a_gap"] for found in (nothing, two_effects, unexplained)]
+    assert told == [False, False, True]
+
+
 def test_where_an_unknown_leads_alone_it_is_told_how_far_known_effects_come(unexplained, tmp_path):
     """An offset is 1 % probable, and closes three quarters of what is not one."""
     assert unexplained.best.effects == ("unknown",)

@@ -14,6 +14,7 @@ from probation.diagnosis.probabilities import (
     effect_count,
     given_a_gap,
     given_no_gap,
+    none_behind,
     probabilities_of,
     with_unseen,
     with_untried,
@@ -90,6 +91,15 @@ def test_explanations_that_lead_already_stay_as_they_are_where_a_gap_is_declared
 
 def test_a_gap_that_cannot_be_chance_leaves_nothing_for_no_effect():
     assert given_a_gap(weighed_as({(): 1.0 - 1e-6, ("a",): 1e-6}), 0.0)[-1].probability < 1e-9
+
+
+def test_where_a_gap_is_declared_no_effect_does_not_lead():
+    """However few explanations there are, and however many are refused by held-out records: something acts."""
+    found = none_behind(weighed_as({(): 0.4, ("unknown",): 0.35, ("a",): 0.25}))
+    assert [each.effects for each in found] == [("unknown",), (), ("a",)]
+    assert [each.probability for each in found] == [0.4, 0.35, 0.25]
+    behind = weighed_as({("a",): 0.5, (): 0.3, ("unknown",): 0.2})
+    assert none_behind(behind) == behind
 
 
 def test_where_no_gap_is_declared_the_p_value_speaks_by_the_ratio_of_its_densities():

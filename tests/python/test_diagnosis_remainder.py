@@ -187,7 +187,7 @@ def test_a_diagnosis_without_an_explanation_describes_what_is_left(undiagnosed, 
     assert told["rms_MPa"] > 1.0
     assert "the largest strain so far" in " ".join(found.summary().split())
     found.report(tmp_path / "page.html")
-    assert "What is left, and on what it depends" in (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "The gap, and on what it depends" in (tmp_path / "page.html").read_text(encoding="utf-8")
 
 
 def test_an_explanation_down_to_the_noise_leaves_nothing_to_describe():
@@ -241,7 +241,7 @@ def test_of_tests_for_two_questions_all_help(rivalled):
 
 def test_the_page_says_what_each_test_settles(rivalled):
     settled = [row[1] for row in next_tests_table(rivalled).rows]
-    assert settled[0] == "on what the rest depends"
+    assert settled[0] == "on what the gap depends"
     assert settled[-1] == "which explanation is right"
 
 

@@ -163,6 +163,7 @@ def compare(
         scatter=causes.base.scatter,
         warnings=(*thinned, *calibration.warnings),
         calibration=calibration,
+        leaves_a_gap=causes.verdict == "unexplained",
     )
 
 

@@ -97,6 +97,8 @@ class Comparison(Result, Stored):
     warnings : tuple of str
     calibration : CalibrationCheck
         Whether the records lie within those on which the probabilities of diagnoses were calibrated.
+    leaves_a_gap : bool
+        Whether the best explanation leaves more than noise and its forms' errors, or something unknown leads.
     """
 
     SCHEMA: ClassVar[str] = "probation.comparison/1"
@@ -115,6 +117,7 @@ class Comparison(Result, Stored):
     scatter: Scatter
     warnings: tuple[str, ...] = ()
     calibration: CalibrationCheck = field(default_factory=lambda: CalibrationCheck(inside=True))
+    leaves_a_gap: bool = False
 
     @property
     def best(self) -> ChangeExplanation:
@@ -132,6 +135,7 @@ class Comparison(Result, Stored):
                 name: {"references": list(others), "rms_MPa": self.rms_MPa[name], "noise_MPa": self.noise_MPa[name]}
                 for name, others in self.pairs.items()
             },
+            "leaves_a_gap": self.leaves_a_gap,
             "changes": [asdict(explanation) for explanation in self.explanations],
             "answer_set": [
                 {"effects": explanation.effects, "records": explanation.records} for explanation in self.answer_set

@@ -43,16 +43,17 @@ class EffectShare:
     probability : float
         Of the effect being in the right explanation, alone or with others.
     share : float or None
-        Of the gap (mean square, the noise set apart) that it closes in the best explanation: the mean over all orders
-        in which its effects can be added (Shapley 1953), those that the headline names before the others. 0 for an
-        effect that is not in it; None where the gap is not above `EVIDENCE.closure_gap` standard errors of the noise.
+        Of the gap (mean square, the noise set apart) that it closes in the best explanation, or in the nearest one
+        where an unknown effect leads alone (`Causes.nearest`): the mean over all orders in which its effects can be
+        added (Shapley 1953), those that the headline names before the others. 0 for an effect that is not in it; None
+        where the gap is not above `EVIDENCE.closure_gap` standard errors of the noise.
     alone, in_addition : float or None
         What it closes alone, and in addition to all others of the best explanation; None if it is not in it, and where
         there are no shares.
     records : tuple of str
         Ids of those that it touches.
     named : bool
-        Whether the headline names it.
+        Whether the headline names it as a cause.
     interchangeable : bool
         Whether another effect of the best explanation can stand in for it, so that its share alone means nothing.
     """
@@ -92,8 +93,8 @@ class Attribution:
         The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
         and leave no more than `EVIDENCE.most_left` times what it leaves, or the noise; by share. Effects that can stand
         in for each other are named, too, where all act with `EVIDENCE.credible_set`. All effects where there are no
-        shares, and where the misfit in MPa falls with these but not with all, or the other way round; none where an
-        unknown effect leads alone.
+        shares, and where these leave more in MPa than that, or the misfit falls with these but not with all, or the
+        other way round; none where an unknown effect leads alone.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float
@@ -152,9 +153,12 @@ def attribution(
             named = tuple(name for name in known if name in {*named, *undivided})
         if len(named) < len(known):
             after = _misfit(base, parts[named])
-            if (after < closure.before_MPa) != (closure.after_MPa < closure.before_MPa):
+            most = EVIDENCE.most_left * max(closure.after_MPa, closure.noise_MPa)
+            if after > most or (after < closure.before_MPa) != (closure.after_MPa < closure.before_MPa):
                 named, after = known, closure.after_MPa
         shares = _shares(named, known, closed)
+    if best.effects == (UNKNOWN,):
+        named, after = (), closure.before_MPa
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for explanation in weighed for name in explanation.effects)]):
         probability = min(sum(explanation.probability for explanation in weighed if name in explanation.effects), 1.0)
@@ -162,7 +166,7 @@ def attribution(
         if name not in {*best.effects, *known} and probability < EVIDENCE.probability_worth_naming:
             continue
         share = shares.get(name, 0.0) if closed else None
-        if name == UNKNOWN and closed:
+        if name == UNKNOWN and UNKNOWN in best.effects and closed:
             share = max(1.0 - closed[known], 0.0)
         entries.append(
             EffectShare(
@@ -172,7 +176,7 @@ def attribution(
                 alone=closed[(name,)] if inside else None,
                 in_addition=closed[known] - closed[_without(known, name)] if inside else None,
                 records=_records(name, weighed),
-                named=name in named and best.effects != (UNKNOWN,),
+                named=name in named,
                 interchangeable=name in undivided,
             )
         )
@@ -199,7 +203,7 @@ def _probability_within(effects: AbstractSet[str], weighed: Sequence[Weighed]) -
 def _parts(
     base: BaseFit, best: Hypothesis, known: tuple[str, ...], hypotheses: Sequence[Hypothesis], threads: int
 ) -> dict[tuple[str, ...], Refit | None]:
-    """Refits of law and effects for every part of the best explanation, smaller ones first; None if unsolvable."""
+    """Refits of law and effects for every part of an explanation, smaller ones first; None if unsolvable."""
     solved = {hypothesis.refit.keys: hypothesis.refit for hypothesis in hypotheses}
     parts = [part for size in range(1, len(known)) for part in combinations(known, size)]
 

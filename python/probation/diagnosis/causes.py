@@ -17,6 +17,7 @@ from probation.diagnosis.probabilities import (
     given_a_gap,
     given_no_gap,
     leading,
+    none_behind,
     probabilities_of,
     with_untried,
 )
@@ -74,7 +75,10 @@ class Causes:
 
     @property
     def nearest(self) -> Hypothesis:
-        """As far as known effects come: the most probable explanation, with any if an unknown effect leads alone."""
+        """As far as known effects come: the best explanation, or the most probable refitted one that has any.
+
+        The latter where an unknown effect leads alone.
+        """
         first = self.weighed[0]
         if first.effects != (UNKNOWN,):
             return first.hypothesis
@@ -157,7 +161,7 @@ def causes_of(
     account = HeldToAccount(base, seed=seed)
 
     weighed = probabilities_of(hypotheses, effect_count(considered), trust_in(calibration))
-    weighed = account.ranked(given_a_gap(weighed, p_value))
+    weighed = none_behind(account.ranked(given_a_gap(weighed, p_value)))
     left, checked = _judged(leading(weighed), base, account, seed)
     best = weighed[0]
     more = (
@@ -204,7 +208,5 @@ def _judged(
 
 
 def _another_acts(best: Hypothesis, base: BaseFit, seed: int) -> bool:
-    """Whether what is left is more than the errors of the best explanation's forms, or nothing was explained."""
-    if not best.causes:
-        return True
+    """Whether what is left is more than the errors of the best explanation's forms."""
     return remaining_gap(best.refit, base, seed=seed, share=1.0).rejected

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Closure:
-    """The gap before and after the best explanation, against the noise's floor.
+    """The gap before and after an explanation, against the noise's floor.
 
     Attributes
     ----------
     before_MPa, after_MPa : float
-        Root mean square of the fit residual with the base law and with the best explanation, every sample with its
+        Root mean square of the fit residual with the base law and with the explanation, every sample with its
         `NoiseModel.weight`.
     noise_MPa : float
         Of the noise, by the same weights.

@@ -208,7 +208,6 @@ def diagnose(
                     cut=causes.cut is not None,
                 ),
                 left if gap.matters(tolerance) else None,
-                "the gap" if alone else "what is left",
             ),
             causes.cut_text if gap.matters(tolerance) else "",
         ),
@@ -248,6 +247,7 @@ def diagnose(
         scatter=base.scatter,
         gap_if_alike=gap.if_alike,
         calibration=calibration,
+        leaves_a_gap=verdict == "unexplained",
     )
 
 

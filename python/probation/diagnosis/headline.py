@@ -89,9 +89,7 @@ def headline(
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)
     count = len(shrink.records) - (shrink.held_out is not None)
-    clause = _cause(verdict, explanations, parts, answer_set, shrink, count, cut)
-    if worse:
-        clause = f"{_nothing(cut)}; {_with(shrink)}, but {' and '.join(record.text for record in worse)}"
+    clause = _cause(verdict, explanations, parts, answer_set, shrink, count, cut, worse)
     if gap.in_fitted:
         missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if verdict == "explained":
@@ -139,16 +137,19 @@ def _cause(
     shrink: Shrink,
     record_count: int,
     cut: bool,
+    worse: Sequence[Worse],
 ) -> str:
     """What explains the gap, or does not, without a full stop."""
     best, identify = explanations[0], shrink.identify
     touched = [name for name in best.records if any(name in part.records for part in parts.effects if part.named)]
-    place = f" in {listed(touched, 'and')}" if 0 < len(touched) < record_count else ""
+    place = _place(touched, record_count)
     fall = f"the misfit {change(identify.before_MPa, parts.after_MPa)}, the noise being {identify.noise_MPa:.2g} MPa"
     if parts.after_MPa > identify.before_MPa:  # evidence is of each sample by its noise
         fall = f"the misfit falls where each sample counts by its noise; else {fall.removeprefix('the misfit ')}"
+    if worse and best.effects != (UNKNOWN,):
+        return f"{_nothing(cut)}; {_with(explanations, shrink, record_count, worse)}"
     if verdict == "explained":
-        return _explains(best, parts, answer_set, place, fall, cut)
+        return _explains(best, parts, answer_set, identify, place, fall, cut)
     if _close_some(parts, identify):
         return _is_part(best, parts, answer_set, identify, place, fall, cut)
     if best.effects != (UNKNOWN,):
@@ -157,14 +158,19 @@ def _cause(
         shown = ", ".join(choices([effects]) for effects in enough[:MOST_RIVALS])
         return f"{shown}{_more(enough)} or {title(UNKNOWN)} may explain it; these tests cannot tell which"
     closes = identify.after_MPa < identify.before_MPa and (identify.closure or 0.0) >= EVIDENCE.share_worth_naming
-    nearest = f", which {'comes' if len(shrink.effects) == 1 else 'come'} nearest,"
-    return f"{_nothing(cut)}; {_with(shrink, nearest)}" if closes else _nothing(cut)
+    return f"{_nothing(cut)}; {_with(explanations, shrink, record_count, worse)}" if closes else _nothing(cut)
+
+
+def _place(records: Sequence[str], count: int) -> str:
+    """Such as " in grip2"; empty for all records."""
+    return f" in {listed(list(records), 'and')}" if 0 < len(records) < count else ""
 
 
 def _explains(
     best: Explanation,
     parts: Attribution,
     answer_set: Sequence[tuple[str, ...]],
+    identify: Closure,
     place: str,
     fall: str,
     cut: bool,
@@ -172,7 +178,7 @@ def _explains(
     """Of an explanation that leaves nothing."""
     known, pronoun = parts.named, "it" if len(parts.named) == 1 else "them"
     verb = "explains" if len(known) == 1 else "explain"
-    sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts)}"
+    sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts, identify)}"
     if cut:
         sentence = f"of what was tried, {sentence}"
     if not {*best.effects} <= {*known, *parts.undivided}:
@@ -201,13 +207,14 @@ def _is_part(
         verb = "may be"
     if {*best.effects} - {*known} - {UNKNOWN}:  # `shrink` is with all of them
         fall = f"with {pronoun} alone {fall}"
-    part = f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts)})"
+    part = f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts, identify)})"
     left = (
         "more than noise is left"
         if parts.after_MPa > identify.noise_MPa
         else "what is left takes a course that noise does not"
     )
-    return f"{part}, but {left}: {own}, or something else acts, too{rivals}"
+    other = f"{title(UNKNOWN)} acts, too" if UNKNOWN in best.effects else f"{own}, or something else acts, too"
+    return f"{part}, but {left}: {other}{rivals}"
 
 
 def _rivals(known: Sequence[str], answer_set: Sequence[tuple[str, ...]]) -> str:
@@ -248,10 +255,19 @@ def _close_some(parts: Attribution, identify: Closure) -> bool:
     return share >= EVIDENCE.share_worth_naming and parts.after_MPa < identify.before_MPa
 
 
-def _with(shrink: Shrink, which: str = "") -> str:
-    """How far the gap would shrink."""
-    misfit = change(shrink.identify.before_MPa, shrink.identify.after_MPa, "would ")
-    return f"with {titles(shrink.effects)}{which} the misfit {misfit}"
+def _with(explanations: Sequence[Explanation], shrink: Shrink, count: int, worse: Sequence[Worse]) -> str:
+    """How far the gap would shrink, and which held-out records contradict that."""
+    identify = shrink.identify
+    shown = next(each for each in explanations if {*each.effects} - {UNKNOWN} == {*shrink.effects})
+    nearest = ""
+    if explanations[0].effects == (UNKNOWN,):
+        nearest = f", which {'comes' if len(shrink.effects) == 1 else 'come'} nearest,"
+    misfit = change(identify.before_MPa, identify.after_MPa, "would ")
+    text = f"with {titles(shrink.effects)}{_place(shown.records, count)}{nearest} the misfit {misfit}"
+    if not worse:
+        return text
+    joint = "but" if identify.after_MPa < identify.before_MPa else "and"
+    return f"{text}, {joint} {' and '.join(record.text for record in worse)}"
 
 
 def _nothing(cut: bool) -> str:
@@ -277,13 +293,14 @@ def _with_shares(parts: Attribution) -> str:
     return listed(words, "and")
 
 
-def _not_divided(parts: Attribution) -> str:
+def _not_divided(parts: Attribution, identify: Closure) -> str:
     """That effects can stand in for each other, as a further clause; empty where each has a share of its own."""
     if not parts.undivided:
         return ""
     first = parts.undivided[0]
     alone = next(part.alone for part in parts.effects if part.name == first) or 0.0
-    closes, stand_ins = f"; {title(first)} alone closes {percent(alone)} of the gap", titles(parts.undivided)
+    weighed = ", as the noise weighs it" if alone > (identify.closure or alone) + EVIDENCE.share_worth_naming else ""
+    closes, stand_ins = f"; {title(first)} alone closes {percent(alone)} of the gap{weighed}", titles(parts.undivided)
     if {*parts.undivided} <= {*parts.named}:  # none of them is enough
         others = titles([name for name in parts.named if name != first])
         return f"{closes}, the rest only jointly with {others}, so that {stand_ins} have no shares of their own"
@@ -295,12 +312,12 @@ def with_budget(headline: str, ended: str) -> str:
     return f"{headline.removesuffix('.')}; {ended}." if ended else headline
 
 
-def with_remainder(headline: str, left: Remainder | None, what: str = "what is left") -> str:
-    """A headline that says on what the rest, or the gap, depends, where anything is left and that is known."""
+def with_remainder(headline: str, left: Remainder | None) -> str:
+    """A headline that says on what the rest, or all of the gap, depends, where anything is left and that is known."""
     if left is None or not left.depends_on:
         return headline
     first = left.depends_on[0]
     return (
-        f"{headline.removesuffix('.')}; {what} is a function of {function_name(first)} "
+        f"{headline.removesuffix('.')}; {left.what} is a function of {function_name(first)} "
         f"({percent(first.explained)} of it)."
     )

@@ -250,6 +250,18 @@ def given_a_gap(weighed: Sequence[Weighed], p_value: float) -> list[Weighed]:
     )
 
 
+def none_behind(weighed: Sequence[Weighed]) -> list[Weighed]:
+    """Where a gap is declared something acts: "no effect is needed" changes places with what comes second."""
+    first, *others = weighed
+    if first.effects or not others:
+        return list(weighed)
+    return [
+        replace(others[0], probability=first.probability),
+        replace(first, probability=others[0].probability),
+        *others[1:],
+    ]
+
+
 def normalised(weighed: Sequence[Weighed]) -> list[Weighed]:
     """Probabilities over their sum, most probable first."""
     total = sum(explanation.probability for explanation in weighed)

@@ -39,6 +39,8 @@ class Remainder:
     curve : RemainderCurve or None
     functions : tuple of FreeFunction
         Of the variables of `depends_on`, fitted to all records: what tests could settle.
+    what : {"what is left", "the gap"}
+        The latter where nothing of it is explained.
     """
 
     rms_MPa: float  # noqa: N815 - as it leaves the program
@@ -47,6 +49,7 @@ class Remainder:
     description: str
     curve: RemainderCurve | None = None
     functions: tuple[FreeFunction, ...] = field(default=(), metadata=LEFT_OUT)
+    what: str = "what is left"
 
     def to_dict(self) -> dict[str, Any]:
         """As in `remainder` of docs/formats.md."""
@@ -115,9 +118,9 @@ def remainder_of(
     )
     curve = problem.curve(leading[0].term) if leading else None
     most = max((tried.explained for tried in trials), default=0.0)
-    what = "What is left" if found.model.causes else "The gap"
+    what = "what is left" if found.model.causes else "the gap"
     text = description(what, closure.after_MPa, closure.noise_MPa, depends_on, curve, most)
     functions = tuple(
         problem.function(trial.term, dependence, before) for trial, dependence in zip(leading, depends_on, strict=True)
     )
-    return Remainder(closure.after_MPa, closure.noise_MPa, depends_on, text, curve, functions)
+    return Remainder(closure.after_MPa, closure.noise_MPa, depends_on, text, curve, functions, what)

@@ -29,7 +29,7 @@ def description(
     Parameters
     ----------
     what : str
-        "What is left", or "The gap" where nothing of it is explained.
+        "what is left", or "the gap" where nothing of it is explained.
     left_MPa, noise_MPa : float
     depends_on : sequence of Dependence
     curve : RemainderCurve or None
@@ -37,7 +37,7 @@ def description(
     most : float
         The most that any function explains.
     """
-    size = f"{what}, {left_MPa:.3g} MPa (noise {noise_MPa:.2g} MPa),"
+    size = f"{what[0].upper()}{what[1:]}, {left_MPa:.3g} MPa (noise {noise_MPa:.2g} MPa),"
     if not depends_on or curve is None:
         return (
             f"{size} follows no single variable: a free function of the strain, the rate, the time or what else was "

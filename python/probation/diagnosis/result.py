@@ -138,7 +138,7 @@ class Explanation:
 
 @dataclass(frozen=True, eq=False)
 class RecordCurves(WithCurves):
-    """One record with the base law's and the best explanation's prediction.
+    """One record with the base law's prediction, and that with the effects of `Shrink.effects`.
 
     Attributes
     ----------
@@ -147,7 +147,7 @@ class RecordCurves(WithCurves):
     time, true_strain, strain_rate, data : ndarray, shape (n,) [s], [-], [1/s], [MPa]
     base : ndarray, shape (n,) [MPa]
     explained : ndarray, shape (n,) [MPa], or None
-        None where no effect is needed or known.
+        None where there are none.
     noise : ndarray, shape (n,) [MPa]
         Standard deviation of a sample, by noise of the stress and of the strain.
     noise_MPa : float
@@ -210,7 +210,7 @@ class Shrink:
         What any smooth curve through the identify records' residuals could close.
     effects : tuple of str
         With which known effects: those of the best explanation; where an unknown effect leads alone, of the most
-        probable one that has any.
+        probable refitted one that has any.
     """
 
     identify: Closure
@@ -322,6 +322,9 @@ class Diagnosis(Result, Stored):
         Hypotheses and parts of the answer that were left out, and why.
     calibration : CalibrationCheck
         Whether the probabilities were calibrated on campaigns such as this one.
+    leaves_a_gap : bool
+        Whether the best explanation leaves more than noise and its forms' errors, an unknown effect leads, or a
+        held-out record refuses it: what makes a diagnosis "unexplained". Told with "not_predicted", too.
     """
 
     SCHEMA: ClassVar[str] = "probation.diagnosis/1"
@@ -360,6 +363,7 @@ class Diagnosis(Result, Stored):
     tolerance: float = DETECTION.tolerance
     matters: bool = True
     calibration: CalibrationCheck = field(default_factory=lambda: CalibrationCheck(inside=True))
+    leaves_a_gap: bool = False
 
     def to_dataframe(self, what: Literal["causes", "where", "curves"] = "causes") -> Any:
         """As a pandas DataFrame.
@@ -484,6 +488,7 @@ class Diagnosis(Result, Stored):
             "next_test": None if self.next_test is None else self.next_test.to_dict(),
             "next_tests": [test.to_dict() for test in self.next_tests],
             "isolability": None if self.isolability is None else self.isolability.to_dict(),
+            "leaves_a_gap": self.leaves_a_gap,
             "remainder": None if self.remainder is None else self.remainder.to_dict(),
             "skipped": [entry.to_dict() for entry in self.skipped],
             "calibration": self.calibration.to_dict(),

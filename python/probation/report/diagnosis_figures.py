@@ -29,7 +29,7 @@ _PROBES = 40
 
 
 def diagnosis_figure(diagnosis: Diagnosis) -> Figure:
-    """Every record: stress with and without the best explanation; beside it what both miss, in units of the noise."""
+    """Every record: stress with and without known effects; beside it what both miss, in units of the noise."""
     names = short_ids(diagnosis.curves, 44)
     with styled_figure(7.6, 0.4 + 2.1 * len(diagnosis.curves)) as figure:
         panels = figure.subplots(len(diagnosis.curves), 2, squeeze=False, width_ratios=(1, 1))
@@ -44,7 +44,7 @@ def diagnosis_figure(diagnosis: Diagnosis) -> Figure:
 
 
 def record_figure(diagnosis: Diagnosis, record_id: str) -> Figure:
-    """One record: stress with and without the best explanation, below it what both miss, in units of the noise."""
+    """One record: stress with and without known effects, below it what both miss, in units of the noise."""
     curves = diagnosis.curves[record_id]
     with styled_figure(3.9, 3.7) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=(1.35, 1))
@@ -150,7 +150,7 @@ def _shown(diagnosis: Diagnosis) -> list[Explanation]:
 
 
 def closure_figure(diagnosis: Diagnosis) -> Figure:
-    """Error of every record before and after the best explanation, against the noise, on a logarithmic scale."""
+    """Error of every record without and with known effects, against the noise, on a logarithmic scale."""
     shrink, names = diagnosis.shrink, short_ids(diagnosis.curves)
     rows: list[tuple[str, Closure]] = [("all fitted records", shrink.identify)]
     if shrink.held_out is not None:

@@ -120,8 +120,8 @@ def _how_far(diagnosis: Diagnosis) -> str:
 
 
 def _where(diagnosis: Diagnosis) -> Section:
-    mended = any(curves.explained is not None for curves in diagnosis.curves.values())
-    thin = " The thin strip below each shows what is left with the best explanation." if mended else ""
+    mended = mended_by(diagnosis)
+    thin = f" The thin strip below each shows what is left with {mended}." if mended else ""
     caption = f"Error of the base law along every record, from its start to its end.{thin}"
     parts: list[str | Table | Picture] = [
         "Each strip is one record; blue means that the simulated stress is too low, orange that it is too high, pale "

@@ -138,7 +138,7 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
 
 
 def shrink_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
-    """How far the best explanation closes the gap, all records together and one by one."""
+    """How far known effects close the gap, all records together and one by one."""
     shrink, names = diagnosis.shrink, short_ids(diagnosis.curves)
     lines: list[tuple[str, Closure]] = [("all fitted records", shrink.identify)]
     if shrink.held_out is not None:
@@ -191,7 +191,9 @@ def next_tests_table(diagnosis: Diagnosis) -> Table:
     rows = tuple(
         (
             test.what.partition(": ")[0],
-            "on what the rest depends" if {*chain(*test.separates)} <= variables else "which explanation is right",
+            f"on what {'the rest' if left is None or left.what == 'what is left' else left.what} depends"
+            if {*chain(*test.separates)} <= variables
+            else "which explanation is right",
             test.cost,
             chance(test.probability_after),
         )

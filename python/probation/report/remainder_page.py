@@ -34,8 +34,8 @@ def remainder_table(left: Remainder) -> Table:
         )
         for dependence in left.depends_on
     )
-    headings = ("a function of", "which is", "closes of what is left", "judged on … left out")
-    return Table(headings, rows, "What is left depends on", left=2)
+    headings = ("a function of", "which is", f"closes of {left.what}", "judged on … left out")
+    return Table(headings, rows, f"{_capital(left.what)} depends on", left=2)
 
 
 def remainder_figure(left: Remainder) -> Figure:
@@ -78,8 +78,12 @@ def remainder_section(left: Remainder) -> Section:
         parts.append(
             picture(
                 remainder_figure(left),
-                "What is left against the variable that explains most of it; what refitted parameters of the law "
-                "follow is taken off.",
+                f"{_capital(left.what)} against the variable that explains most of it; what refitted parameters of the "
+                "law follow is taken off.",
             )
         )
-    return Section("What is left, and on what it depends", tuple(parts))
+    return Section(f"{_capital(left.what)}, and on what it depends", tuple(parts))
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

@@ -20,7 +20,7 @@ class EffectsSettings:
     largest_drift: float = chosen(
         0.5,
         "largest force",
-        "Largest drift of the force within a test: a channel that wanders by more measures no force.",
+        "Largest gross drift of the force within a test: a channel that wanders by more measures no force.",
     )
     large_zero: float = chosen(
         0.1, "largest true strain", "Standard deviation of a strain that was zeroed at quite another length."
