@@ -7,8 +7,9 @@ left out, beside the weights in force; then of all together, and the weights tha
 are of what leads in declared gaps, and so is the calibration error.
 
 Then the level of the answer sets that holds 95 % of the others' truths (conformal calibration; Vovk, Gammerman and
-Shafer 2005), in two strata: gaps of which the best explanation gains less than `PLAIN` log units, and the others. A
-truth with less than 1e-4, or that an answer does not list, counts as 1e-4. What held-out records refuse stays in.
+Shafer 2005), in strata by what the best explanation gains. It is of truths that an answer lists: no level holds others,
+and they are one in seven. A truth with less than 1e-4, or that an answer does not list, counts as 1e-4 in the score.
+What held-out records refuse stays in.
 """
 
 from __future__ import annotations
@@ -43,14 +44,15 @@ if TYPE_CHECKING:
     from probation_studies.blind.scores.case import Case
 
 LEAST = 1e-4
-PLAIN = 100.0
+GAINS = (100.0, 1000.0)
+"""Log evidence between strata."""
 START = OtherForms(fall=0.5, unknown_power=0.01, two=0.1, three=0.01, unknown=0.1, unknown_with_known=0.001)
 HEAD = (
     "laboratory left out", "weights", "campaigns", *NAMED, "calibration error", "said", "right", "mean log score",
 )  # fmt: skip
 STRATA = (
-    "laboratory left out", "the best explanation gains", "gaps", "95 % sets hold", "their size",
-    "level that holds 95 % of the others'", "its sets hold", "their size", "truths that are listed",
+    "laboratory left out", "the best explanation gains", "truths that are listed", "of these 95 % sets hold",
+    "their size", "level that holds 95 % of the others'", "its sets hold", "their size",
 )  # fmt: skip
 
 
@@ -180,10 +182,11 @@ def _log_chance(gap: Gap, trust: OtherForms) -> float:
     return float(true - np.logaddexp.reduce([score for _, score in some]))
 
 
-def level_of(found: Sequence[Judged]) -> float:
-    """Just above their conformal quantile; 1, all explanations, where there are too few."""
-    rank = ceil((len(found) + 1) * EVIDENCE.credible_set)
-    return min(np.nextafter(sorted(each.before for each in found)[rank - 1], 2.0), 1.0) if rank <= len(found) else 1.0
+def level_of(found: Iterable[Judged]) -> float:
+    """Just above the conformal quantile of those that list their truth; 1, all explanations, of too few."""
+    listed = sorted(each.before for each in found if each.before < 1.0)
+    rank = ceil((len(listed) + 1) * EVIDENCE.credible_set)
+    return min(np.nextafter(listed[rank - 1], 2.0), 1.0) if rank <= len(listed) else 1.0
 
 
 def row(own: Answered, name: str, found: Sequence[Judged]) -> list[str]:
@@ -206,22 +209,28 @@ def gain(gap: Gap) -> float:
     return max(gap.log_evidence.values()) - gap.log_evidence[()]
 
 
+def stratum_of(found: Judged) -> str:
+    """By what its best explanation gains."""
+    own = gain(found.gap)
+    below = [f"less than {most:g}" for most in GAINS if own < most]
+    return below[0] if below else f"{GAINS[-1]:g} or more"
+
+
 def stratum_row(laboratory: str, name: str, own: Sequence[Judged], level: float) -> list[str]:
-    """What sets of 95 % and of a level hold in a stratum."""
+    """What sets of 95 % and of a level hold in a stratum, of truths that are listed."""
+    listed = [each for each in own if each.before < 1.0]
 
     def held(most: float) -> list[str]:
-        told = rate(Rate.of(each.before < most for each in own).plain())
+        told = rate(Rate.of(each.before < most for each in listed).plain())
         return [told, f"{np.mean([each.size(most) for each in own]):.1f}"]
 
-    listed = rate(Rate.of(each.before < 1.0 for each in own).plain())
     return [
         laboratory,
         name,
-        str(len(own)),
+        rate(Rate.of(each.before < 1.0 for each in own).plain()),
         *held(EVIDENCE.credible_set),
         f"{100.0 * level:.1f} %",
         *held(level),
-        listed,
     ]
 
 
@@ -242,11 +251,9 @@ def tables(laboratories: Sequence[Answered]) -> tuple[list[list[str]], list[list
         here, there = judged(own.gaps, trust), judged(theirs, trust)
         whole += here
         scores += [row(own, "in force", judged(own.gaps)), row(own, f"of the others: {said(trust)}", here)]
-        for name, plain in ((f"less than {PLAIN:g}", False), (f"{PLAIN:g} or more", True)):
-            inner = [each for each in here if (gain(each.gap) >= PLAIN) == plain]
-            if inner:
-                level = level_of([each for each in there if (gain(each.gap) >= PLAIN) == plain])
-                strata.append(stratum_row(own.laboratory, name, inner, level))
+        for name in dict.fromkeys(map(stratum_of, sorted(here, key=lambda each: gain(each.gap)))):
+            level = level_of(each for each in there if stratum_of(each) == name)
+            strata.append(stratum_row(own.laboratory, name, [each for each in here if stratum_of(each) == name], level))
     cases = [case for own in laboratories for case in own.cases]
     every = Answered("all", cases, [gap for own in laboratories for gap in own.gaps])
     return [*scores, row(every, "in force", judged(every.gaps)), row(every, "of the others", whole)], strata

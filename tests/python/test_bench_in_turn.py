@@ -96,6 +96,7 @@ def test_a_conformal_level_holds_as_many_as_it_says():
     held = [row[-1] < level_of([Before(each) for each in row[:-1]]) for row in draws]
     assert np.mean(held) == pytest.approx(0.95, abs=0.02)
     assert level_of([Before(0.5)] * 10) == 1.0
+    assert level_of([*[Before(0.5)] * 30, *[Before(1.0)] * 10]) == pytest.approx(0.5)  # ten are in no explanation
 
 
 def test_a_set_holds_what_takes_it_over_its_level(gap):
@@ -105,8 +106,8 @@ def test_a_set_holds_what_takes_it_over_its_level(gap):
     assert (certain.before, certain.size(0.98), lost.before) == (0.0, 1, 1.0)
     assert (certain.case.covered, lost.case.covered) == (True, False)
     found = stratum_row("lab", "100 or more", [certain, lost], 1.0)
-    assert found[3].startswith("50 % of 2")
-    assert found[-1].startswith("50 % of 2")
+    assert found[2].startswith("50 % of 2")
+    assert [found[at].partition(" (")[0] for at in (3, 6)] == ["100 % of 1", "100 % of 1"]
 
 
 def drawn(rng, gap, fall, count=300):
@@ -144,4 +145,5 @@ def test_every_laboratory_is_scored_by_what_the_others_tell(gap):
     assert scores[-1][2] == "120"
     falls = [float(line[1].split(" a ")[1].split(",")[0]) for line in scores[1:4:2]]
     assert falls[0] > falls[1]  # of the other one
-    assert [line[:3] for line in strata] == [["a", "100 or more", "60"], ["b", "100 or more", "60"]]
+    every = ["less than 1000", "100 % of 60 (94 to 100)"]
+    assert [line[:3] for line in strata] == [["a", *every], ["b", *every]]
