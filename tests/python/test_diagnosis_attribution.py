@@ -458,3 +458,27 @@ def test_where_an_unknown_leads_alone_it_is_told_how_far_known_effects_come(unex
     assert "with offset of the force" in unexplained.summary()
     unexplained.report(tmp_path / "page.html")
     assert "with offset of the force" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("left", "hangs", "told"),
+    [
+        (0.04, False, "No gap: the law describes all 2 records to within the noise of 0.04 MPa (p = 0.2)."),
+        (
+            2.39,
+            True,
+            "No gap beyond what specimens may differ by: the law describes all 2 records to 2.39 MPa, the noise being "
+            "0.04 MPa, with deviations of its own for each specimen (p = 0.2); they may, and if they were alike there "
+            "would be a gap.",
+        ),
+    ],
+)
+def test_without_a_gap_the_headline_tells_what_that_hangs_on(left, hangs, told):
+    scatter = SimpleNamespace(source="replicates" if hangs else "stated", text="they may")
+    gap = SimpleNamespace(
+        held_out={}, hangs_on_scatter=hangs, scatter=scatter, test=SimpleNamespace(p_value=0.2), held_out_p_value=1.0
+    )
+    closure = Closure(left, left, 0.04, None, None, "")
+    shrink = SimpleNamespace(identify=closure, records={"a": None, "b": None}, held_out=None, effects=())
+    none = SimpleNamespace(effects=(), records=())
+    assert headline("no_gap", [none], Attribution((), (), left, 1.0), [()], shrink, gap) == told

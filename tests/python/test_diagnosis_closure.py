@@ -90,7 +90,7 @@ def test_one_record_is_resampled_in_parts_and_six_as_wholes():
         return closure_of([piece(of_size(2.0), of_size(0.6))] * count, rng()).how
 
     assert "part" in how(1)
-    assert "noise drawn" in how(3)
+    assert "from simulated noise" in how(3)
     assert "records resampled" in how(6)
 
 

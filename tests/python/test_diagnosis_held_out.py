@@ -191,7 +191,7 @@ def test_an_explanation_that_makes_a_held_out_record_worse_is_not_explained():
     found = diagnose(slow_reads_less(0.007), effects=["rate_dependent_relaxation"], design=False)
     assert found.best.checks.remaining_p_value > 0.1
     assert found.verdict == "unexplained"
-    assert "nothing in the catalogue explains it" in found.headline
+    assert "nothing that was tried explains it" in found.headline
     assert "but fast is predicted worse with it" in found.headline
     assert any("predicted worse" in note for note in found.best.checks.notes)
 

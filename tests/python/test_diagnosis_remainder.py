@@ -133,7 +133,7 @@ def test_a_softening_below_the_largest_strain_is_a_factor_on_unloading_and_reloa
     found = described("mullins")
     assert found.depends_on[0].acts == "factor"
     assert "on unloading and reloading only" in found.description
-    assert "below the law's" in found.description
+    assert "above the measured stress" in found.description
 
 
 def test_of_one_record_contiguous_parts_are_left_out():

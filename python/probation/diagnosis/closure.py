@@ -151,7 +151,7 @@ def closure_of(pieces: Sequence[Piece], rng: np.random.Generator) -> Closure:
         noise = np.exp(level * rng.standard_normal((EVIDENCE.closure_draws, len(pieces))))
         draws = _ratio(before[chosen], after[chosen], np.take_along_axis(floor * noise, chosen, axis=1))
     else:
-        how = "noise drawn: too few records to resample them"
+        how = "from simulated noise, since there are too few records to resample"
         left = np.maximum(before - floor, 0.0), np.maximum(after - floor, 0.0)
         # The same noise meets what there was of a gap and what is left of it, as far as they are correlated.
         both = np.array([piece.both for piece in pieces]) - floor

@@ -206,6 +206,7 @@ def diagnose(
                     judge=case.judge,
                     tolerance=tolerance,
                     cut=causes.cut is not None,
+                    chosen=effects is not None,
                 ),
                 left if gap.matters(tolerance) else None,
             ),

@@ -54,6 +54,7 @@ def headline(
     judge: str | None = None,
     tolerance: float = DETECTION.tolerance,
     cut: bool = False,
+    chosen: bool = False,
 ) -> str:
     """One sentence a person can act on; effects are named by what they close (docs/diagnosis-method.md, section 8).
 
@@ -71,6 +72,8 @@ def headline(
         Part of the largest stress below which a gap does not matter.
     cut : bool
         Whether the budget ended the search.
+    chosen : bool
+        Whether only some effects were asked for.
     """
     identify = shrink.identify
     fitted = len(shrink.records) - len(gap.held_out)
@@ -82,14 +85,21 @@ def headline(
         if p_value < DETECTION.gap_level:
             certain = " that is certain"
             asked = f", where {CALIBRATED.gap_level_outside:.0g} is asked for: such noise was not among what was tried"
+        described = f"to within the noise of {identify.noise_MPa:.2g} MPa"
+        if identify.after_MPa > EVIDENCE.most_left * identify.noise_MPa:
+            described = f"to {identify.after_MPa:.3g} MPa, the noise being {identify.noise_MPa:.2g} MPa,"
+        if gap.hangs_on_scatter:
+            certain = f" beyond what specimens may differ by{certain}"
+            described += " with deviations of its own for each specimen"
         return (
-            f"No gap{certain}: the law describes {records}{also} to within the noise of {identify.noise_MPa:.2g} MPa "
-            f"(p = {p_value:.2g}{asked}){_scatter_clause(gap)}."
+            f"No gap{certain}: the law describes {records}{also} {described} (p = {p_value:.2g}{asked})"
+            f"{_scatter_clause(gap)}."
         )
     if not gap.matters(tolerance):
         return _small(gap, tolerance, identify.noise_MPa)
     count = len(shrink.records) - (shrink.held_out is not None)
-    clause = _cause(verdict, explanations, parts, answer_set, shrink, count, cut, worse)
+    nothing = f"nothing {'that was tried' if cut or chosen else 'in the catalogue'} explains it"
+    clause = _cause(verdict, explanations, parts, answer_set, shrink, count, cut, nothing, worse)
     if gap.in_fitted:
         missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if verdict == "explained":
@@ -137,6 +147,7 @@ def _cause(
     shrink: Shrink,
     record_count: int,
     cut: bool,
+    nothing: str,
     worse: Sequence[Worse],
 ) -> str:
     """What explains the gap, or does not, without a full stop."""
@@ -147,18 +158,18 @@ def _cause(
     if parts.after_MPa > identify.before_MPa:  # evidence is of each sample by its noise
         fall = f"the misfit falls where each sample counts by its noise; else {fall.removeprefix('the misfit ')}"
     if worse and best.effects != (UNKNOWN,):
-        return f"{_nothing(cut)}; {_with(explanations, shrink, record_count, worse)}"
+        return f"{nothing}; {_with(explanations, shrink, record_count, worse)}"
     if verdict == "explained":
         return _explains(best, parts, answer_set, identify, place, fall, cut)
     if _close_some(parts, identify):
-        return _is_part(best, parts, answer_set, identify, place, fall, cut)
+        return _is_part(best, parts, answer_set, identify, place, fall, nothing if cut else "")
     if best.effects != (UNKNOWN,):
-        return _nothing(cut)
+        return nothing
     if enough := _enough(explanations, answer_set):
         shown = ", ".join(choices([effects]) for effects in enough[:MOST_RIVALS])
         return f"{shown}{_more(enough)} or {title(UNKNOWN)} may explain it; these tests cannot tell which"
     closes = identify.after_MPa < identify.before_MPa and (identify.closure or 0.0) >= EVIDENCE.share_worth_naming
-    return f"{_nothing(cut)}; {_with(explanations, shrink, record_count, worse)}" if closes else _nothing(cut)
+    return f"{nothing}; {_with(explanations, shrink, record_count, worse)}" if closes else nothing
 
 
 def _place(records: Sequence[str], count: int) -> str:
@@ -195,12 +206,12 @@ def _is_part(
     identify: Closure,
     place: str,
     fall: str,
-    cut: bool,
+    nothing: str,
 ) -> str:
-    """Of an explanation that leaves a gap."""
+    """Of an explanation that leaves a gap; with `nothing` where the search did not come to an end."""
     known = parts.named
-    if cut:
-        return f"{_nothing(cut)}; with {titles(known)}{place} {fall}"
+    if nothing:
+        return f"{nothing}; with {titles(known)}{place} {fall}"
     verb, own, pronoun = ("is", "its form differs", "it") if len(known) == 1 else ("are", "their forms differ", "them")
     rivals = _rivals(known, answer_set)
     if rivals:
@@ -268,10 +279,6 @@ def _with(explanations: Sequence[Explanation], shrink: Shrink, count: int, worse
         return text
     joint = "but" if identify.after_MPa < identify.before_MPa else "and"
     return f"{text}, {joint} {' and '.join(record.text for record in worse)}"
-
-
-def _nothing(cut: bool) -> str:
-    return f"nothing {'that was tried' if cut else 'in the catalogue'} explains it"
 
 
 def _with_shares(parts: Attribution) -> str:

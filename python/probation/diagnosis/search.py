@@ -487,7 +487,7 @@ class Search:
             if hypothesis.refit.chi_square <= min(parts, default=np.inf) + SEARCH.settled:
                 self.found.append(hypothesis)
             else:
-                self.skipping.hypothesis(hypothesis.causes, "its refits leave more than a part of it does alone")
+                self.skipping.hypothesis(hypothesis.causes, "not solved: its fit ended worse than that of a part of it")
         self._try_with_unknown()
 
     def _swaps(self, extended: set[frozenset[Key]]) -> None:

@@ -56,8 +56,9 @@ class CalibrationCheck:
         )
         return (
             f"the probabilities were calibrated on other campaigns ({'; '.join(self.why)}): evidence counts for less; "
-            f"in laboratories of others what led was said with {said} % and right in {right} % of gaps, and the truth "
-            f"was in {held} % of the answer sets",
+            f"in laboratories of others what led had a probability of {said} % and was right in {right} % of gaps, in "
+            f"{percentage(CALIBRATED.right_with_a_gap_left)} % where it left a gap, and the truth was in {held} % of "
+            "the answer sets",
         )
 
     def to_dict(self) -> dict[str, Any]:

@@ -96,7 +96,7 @@ class Scatter:
         if self.source == "assumed":
             return f"without replicates it is assumed that specimens differ by {listed(parts, 'and')}"
         if not parts:
-            return "specimens do not differ visibly"
+            return "replicates do not show that specimens differ"
         return f"specimens {'are said to ' if self.source == 'stated' else ''}differ by {listed(parts, 'and')}"
 
     @property

@@ -10,6 +10,7 @@ from probation.provenance import provenance
 from probation.report.diagnosis_figures import closure_figure, probability_figure, record_figure
 from probation.report.diagnosis_summary import gap_text, next_test_text, signs, specimens_text
 from probation.report.diagnosis_tables import (
+    acting,
     base_table,
     effects_table,
     held_out_table,
@@ -69,8 +70,9 @@ def _short(diagnosis: Diagnosis) -> Section:
     where = nowhere_text(diagnosis)
     if diagnosis.located:
         worst = diagnosis.located[0]
+        what = f"what {mended_by(diagnosis)} makes" if acting(diagnosis) else "the gap"
         where = (
-            f"{percent(worst.share)} of the gap sits in {worst.record}, at {span_text(worst.time_s)} s and true "
+            f"{percent(worst.share)} of {what} sits in {worst.record}, at {span_text(worst.time_s)} s and true "
             f"strains of {span_text(worst.true_strain)}"
         )
     best = leading(diagnosis)
@@ -106,7 +108,7 @@ def _how_far(diagnosis: Diagnosis) -> str:
         )
         return f"no effect of the catalogue closes the gap{ceiling}."
     text = (
-        f"with {mended_by(diagnosis)} the error of the fitted records "
+        f"with {mended_by(diagnosis)}, the error of the fitted records "
         f"{change(shrink.identify.before_MPa, shrink.identify.after_MPa)} rms; "
         f"the noise is {shrink.identify.noise_MPa:.3g} MPa"
     )

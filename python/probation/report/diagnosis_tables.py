@@ -32,6 +32,9 @@ MOST = 8
 WORTH_A_ROW = 0.01
 """Share or probability below which a row may be left out."""
 
+ROUNDING = 1e-12
+"""Noise of a strain that is none."""
+
 P_VALUE = "p: how often noise alone would do it"
 
 _STATUS = {
@@ -59,6 +62,8 @@ def where_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     kept = _kept([region.share for region in diagnosis.located], most)
     headings = ("record", "time [s]", "true strain [–]", "rms error [MPa]", "share", "p")
     caption = f"Where the simulation departs (share of the squared gap; {P_VALUE})"
+    if acting(diagnosis):
+        caption = f"Where {mended_by(diagnosis)} acts (error it makes, share of its squared sum; {P_VALUE})"
     return Table(headings, tuple(rows[:kept]), caption), _rest(
         [region.share for region in diagnosis.located[kept:]], "region"
     )
@@ -122,9 +127,11 @@ def effects_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table,
     ]
     empty = {at for at in (3, 4, 5) if not any(row[at] for row in rows)}
     kept = _kept([max(effect.probability, effect.share or 0.0) for effect in diagnosis.effects], most)
-    closing = ", and what it closes of the gap (–: not in the best explanation)"
+    allowed = diagnosis.scatter is not None and diagnosis.scatter.any
+    of_the_gap = "of the gap, as the noise weighs it" if allowed else "of the gap"
+    closing = f", and what it closes {of_the_gap} (–: not in the best explanation)"
     if diagnosis.best.effects == (UNKNOWN,) and diagnosis.shrink.effects:
-        closing = f", and what it closes of the gap with {mended_by(diagnosis)}, the nearest of known effects"
+        closing = f", and what it closes {of_the_gap} with {mended_by(diagnosis)}, the nearest of known effects"
     if any(effect.share is None for effect in diagnosis.effects):
         empty |= {2}
         closing = f"; no shares, the gap is not above {EVIDENCE.closure_gap:g} standard errors of the noise"
@@ -175,7 +182,7 @@ def noise_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
         (
             names[curves.id],
             f"{curves.noise_MPa:.2g} ({_source(curves.noise_given)})",
-            f"{curves.strain_noise:.2g} ({_source(curves.strain_noise_given)})",
+            f"{_beyond_rounding(curves.strain_noise):.2g} ({_source(curves.strain_noise_given)})",
         )
         for curves in diagnosis.curves.values()
     ]
@@ -220,6 +227,15 @@ def base_table(diagnosis: Diagnosis) -> Table:
 def leading(diagnosis: Diagnosis) -> tuple[Explanation, ...]:
     """Those in the answer set, the most probable first."""
     return tuple(explanation for explanation in diagnosis.explanations if explanation.effects in diagnosis.answer_set)
+
+
+def _beyond_rounding(strain_noise: float) -> float:
+    return strain_noise if strain_noise > ROUNDING else 0.0
+
+
+def acting(diagnosis: Diagnosis) -> bool:
+    """Whether the regions shown are those in which the best explanation acts, not those of the base law's error."""
+    return bool(diagnosis.located) and diagnosis.located == diagnosis.acts
 
 
 def mended_by(diagnosis: Diagnosis) -> str:
