@@ -61,7 +61,7 @@ def where_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     ]
     kept = _kept([region.share for region in diagnosis.located], most)
     headings = ("record", "time [s]", "true strain [–]", "rms error [MPa]", "share", "p")
-    caption = f"Where the simulation departs (share of the squared gap; {P_VALUE})"
+    caption = f"Where the simulation departs (share of the squared gap{_of_which_fit(diagnosis)}; {P_VALUE})"
     if acting(diagnosis):
         caption = f"Where {mended_by(diagnosis)} acts (error it makes, share of its squared sum; {P_VALUE})"
     return Table(headings, tuple(rows[:kept]), caption), _rest(
@@ -227,6 +227,13 @@ def base_table(diagnosis: Diagnosis) -> Table:
 def leading(diagnosis: Diagnosis) -> tuple[Explanation, ...]:
     """Those in the answer set, the most probable first."""
     return tuple(explanation for explanation in diagnosis.explanations if explanation.effects in diagnosis.answer_set)
+
+
+def _of_which_fit(diagnosis: Diagnosis) -> str:
+    """Of which errors the regions are, where these are not the ones that the strips show."""
+    without = ", of a fit without the places that disturb it" if diagnosis.best.effects == (UNKNOWN,) else ""
+    may_differ = diagnosis.scatter is not None and diagnosis.scatter.any
+    return without + (", what specimens may differ by included" if may_differ else "")
 
 
 def _beyond_rounding(strain_noise: float) -> float:
