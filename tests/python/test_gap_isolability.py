@@ -138,6 +138,7 @@ def test_orthogonal_waves_are_discriminated_and_equal_ones_are_not():
     assert found.angle[0, 2] == pytest.approx(90.0, abs=1.0)
     assert [each.status for each in found.effects] == ["ambiguous", "ambiguous", "named"]
     assert found.headline.startswith("This record can name 1 of 3 effects; 2 would be seen but could be taken for")
+    assert "could be taken for another (a for b; b for a)" in found.headline
     assert "could be taken for b (50 % right)" in found.effects[0].sentence
     assert found.effects[0].named_from is None
     np.testing.assert_allclose(np.diag(found.probability), 1.0)

@@ -178,8 +178,8 @@ def _headline(isolability: Isolability) -> str:
     parts = [f"{which} can name {len(isolability.with_status('named'))} of {effects} effects"]
     ambiguous = isolability.with_status("ambiguous")
     if ambiguous:
-        sets = "; ".join(", ".join(group) for group in isolability.groups)
-        parts.append(f"{len(ambiguous)} would be seen but could be taken for another ({sets})")
+        taken = "; ".join(f"{effect.name} for {listed(_likest(effect), 'or')}" for effect in ambiguous)
+        parts.append(f"{len(ambiguous)} would be seen but could be taken for another ({taken})")
     if hidden := isolability.with_status("absorbed"):
         parts.append(f"{listed([effect.name for effect in hidden], 'and')} would hide in the base parameters")
     if small := isolability.with_status("too_small"):
@@ -206,10 +206,16 @@ def _sentence(effect: EffectIsolability) -> str:
         return f"{title} would drown in the noise: {seen} where {DESIGN.detected:g} are needed; {_from(effect)}."
     if effect.status == "named":
         return f"{title} would be seen ({seen}) and discriminated from every other effect; {_from(effect)}."
-    likest = [f"{rival} ({100 * chance:.0f} % right)" for rival, chance in list(effect.rivals.items())[:_NAMED]]
-    more = len(effect.rivals) - len(likest)
-    others = listed([*likest, f"{more} more"] if more else likest)
+    right = {rival: f"{rival} ({100 * chance:.0f} % right)" for rival, chance in effect.rivals.items()}
+    others = listed([right.get(rival, rival) for rival in _likest(effect)])
     return f"{title} would be seen ({seen}) but could be taken for {others}; {_from(effect)}."
+
+
+def _likest(effect: EffectIsolability) -> list[str]:
+    """What it may be taken for, the first few by name."""
+    likest = list(effect.rivals)[:_NAMED]
+    more = len(effect.rivals) - len(likest)
+    return [*likest, f"{more} more"] if more else likest
 
 
 def _from(effect: EffectIsolability) -> str:
