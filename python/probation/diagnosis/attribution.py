@@ -90,11 +90,12 @@ class Attribution:
     effects : tuple of EffectShare
         By share, then by probability.
     named : tuple of str
-        The fewest effects of the best explanation that close all of what it closes but `EVIDENCE.share_worth_naming`,
-        and leave no more than `EVIDENCE.most_left` times what it leaves, or the noise; by share. Effects that can stand
-        in for each other are named, too, where all act with `EVIDENCE.credible_set`. All effects where there are no
-        shares, and where these leave more in MPa than that, or the misfit falls with these but not with all, or the
-        other way round; none where an unknown effect leads alone.
+        The smallest part of the best explanation that closes all of what it closes but
+        `EVIDENCE.share_worth_naming`, and leaves no more than `EVIDENCE.most_left` times what it leaves, or the
+        noise; by share. Effects that can stand in for each other are named, too, where all act with
+        `EVIDENCE.credible_set`. All effects where there are no shares, and where these leave more in MPa than
+        that, or the misfit falls with these but not with all, or the other way round; none where an unknown
+        effect leads alone.
     after_MPa : float
         Root mean square of what the named effects leave.
     probability : float

@@ -90,8 +90,8 @@ class Causes:
 
         It would not where the best explanation leaves nothing, and all of as many effects were tried.
         """
-        fewest = len(self.weighed[0].hypothesis.effects)
-        if self.cut is None or (self.verdict == "explained" and fewest <= self.cut.completed):
+        count = len(self.weighed[0].hypothesis.effects)
+        if self.cut is None or (self.verdict == "explained" and count <= self.cut.completed):
             return ()
         return tuple(effect.name for effect in self.considered if effect.name not in self.cut.ended)
 

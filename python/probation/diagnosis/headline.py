@@ -42,6 +42,11 @@ def choices(sets: Sequence[Sequence[str]]) -> str:
     return listed(list(dict.fromkeys(names)), "or")
 
 
+def with_known(effects: Sequence[str], explanations: Sequence[Explanation]) -> Explanation:
+    """The most probable explanation with these known effects, alone or jointly with an unknown one."""
+    return next(each for each in explanations if {*each.effects} - {UNKNOWN} == {*effects})
+
+
 def headline(
     verdict: Verdict,
     explanations: Sequence[Explanation],
@@ -159,11 +164,28 @@ def _cause(
         fall = f"the misfit falls where each sample counts by its noise; else {fall.removeprefix('the misfit ')}"
     if worse and best.effects != (UNKNOWN,):
         return f"{nothing}; {_with(explanations, shrink, record_count, worse)}"
-    if verdict == "explained":
-        return _explains(best, parts, answer_set, identify, place, fall, cut)
-    if _close_some(parts, identify):
-        return _is_part(best, parts, answer_set, identify, place, fall, nothing if cut else "")
-    if best.effects != (UNKNOWN,):
+    if verdict == "unexplained" and not _close_some(parts, identify):
+        return _nothing_near(explanations, answer_set, shrink, record_count, nothing, worse)
+    if verdict == "unexplained" and cut:
+        return f"{nothing}; with {titles(parts.named)}{place} {fall}"
+    named, rivals = f"{_with_shares(parts)}{place}", _rivals(parts.named, answer_set)
+    fall += _not_divided(parts, identify)
+    if verdict == "unexplained":
+        return _is_part(best, parts, named, fall, rivals, identify.noise_MPa)
+    return f"{'of what was tried, ' if cut else ''}{_explains(best, parts, named, fall, rivals)}"
+
+
+def _nothing_near(
+    explanations: Sequence[Explanation],
+    answer_set: Sequence[tuple[str, ...]],
+    shrink: Shrink,
+    record_count: int,
+    nothing: str,
+    worse: Sequence[Worse],
+) -> str:
+    """Where no named effect closes a part of the gap: what may, and how far known effects come."""
+    identify = shrink.identify
+    if explanations[0].effects != (UNKNOWN,):
         return nothing
     if enough := _enough(explanations, answer_set):
         shown = ", ".join(choices([effects]) for effects in enough[:MOST_RIVALS])
@@ -177,55 +199,30 @@ def _place(records: Sequence[str], count: int) -> str:
     return f" in {listed(list(records), 'and')}" if 0 < len(records) < count else ""
 
 
-def _explains(
-    best: Explanation,
-    parts: Attribution,
-    answer_set: Sequence[tuple[str, ...]],
-    identify: Closure,
-    place: str,
-    fall: str,
-    cut: bool,
-) -> str:
+def _explains(best: Explanation, parts: Attribution, named: str, fall: str, rivals: str) -> str:
     """Of an explanation that leaves nothing."""
-    known, pronoun = parts.named, "it" if len(parts.named) == 1 else "them"
-    verb = "explains" if len(known) == 1 else "explain"
-    sentence = f"{_with_shares(parts)}{place} {verb} the gap: with {pronoun} {fall}{_not_divided(parts, identify)}"
-    if cut:
-        sentence = f"of what was tried, {sentence}"
-    if not {*best.effects} <= {*known, *parts.undivided}:
+    pronoun, verb = ("it", "explains") if len(parts.named) == 1 else ("them", "explain")
+    sentence = f"{named} {verb} the gap: with {pronoun} {fall}"
+    if not {*best.effects} <= {*parts.named, *parts.undivided}:
         sentence += (
             f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
         )
-    return sentence + (_rivals(known, answer_set) or f" (probability {chance(parts.probability)})")
+    return sentence + (rivals or f" (probability {chance(parts.probability)})")
 
 
-def _is_part(
-    best: Explanation,
-    parts: Attribution,
-    answer_set: Sequence[tuple[str, ...]],
-    identify: Closure,
-    place: str,
-    fall: str,
-    nothing: str,
-) -> str:
-    """Of an explanation that leaves a gap; with `nothing` where the search did not come to an end."""
-    known = parts.named
-    if nothing:
-        return f"{nothing}; with {titles(known)}{place} {fall}"
-    verb, own, pronoun = ("is", "its form differs", "it") if len(known) == 1 else ("are", "their forms differ", "them")
-    rivals = _rivals(known, answer_set)
+def _is_part(best: Explanation, parts: Attribution, named: str, fall: str, rivals: str, noise_MPa: float) -> str:
+    """Of an explanation that leaves a gap."""
+    one = len(parts.named) == 1
+    pronoun, verb, own = ("it", "is", "its form differs") if one else ("them", "are", "their forms differ")
     if rivals:
         verb = "may be"
-    if {*best.effects} - {*known} - {UNKNOWN}:  # `shrink` is with all of them
+    if {*best.effects} - {*parts.named} - {UNKNOWN}:  # `shrink` is with all of them
         fall = f"with {pronoun} alone {fall}"
-    part = f"{_with_shares(parts)}{place} {verb} part of it ({fall}{_not_divided(parts, identify)})"
     left = (
-        "more than noise is left"
-        if parts.after_MPa > identify.noise_MPa
-        else "what is left takes a course that noise does not"
+        "more than noise is left" if parts.after_MPa > noise_MPa else "what is left takes a course that noise does not"
     )
     other = f"{title(UNKNOWN)} acts, too" if UNKNOWN in best.effects else f"{own}, or something else acts, too"
-    return f"{part}, but {left}: {other}{rivals}"
+    return f"{named} {verb} part of it ({fall}), but {left}: {other}{rivals}"
 
 
 def _rivals(known: Sequence[str], answer_set: Sequence[tuple[str, ...]]) -> str:
@@ -269,7 +266,7 @@ def _close_some(parts: Attribution, identify: Closure) -> bool:
 def _with(explanations: Sequence[Explanation], shrink: Shrink, count: int, worse: Sequence[Worse]) -> str:
     """How far the gap would shrink, and which held-out records contradict that."""
     identify = shrink.identify
-    shown = next(each for each in explanations if {*each.effects} - {UNKNOWN} == {*shrink.effects})
+    shown = with_known(shrink.effects, explanations)
     nearest = ""
     if explanations[0].effects == (UNKNOWN,):
         nearest = f", which {'comes' if len(shrink.effects) == 1 else 'come'} nearest,"
@@ -306,7 +303,8 @@ def _not_divided(parts: Attribution, identify: Closure) -> str:
         return ""
     first = parts.undivided[0]
     alone = next(part.alone for part in parts.effects if part.name == first) or 0.0
-    weighed = ", as the noise weighs it" if alone > (identify.closure or alone) + EVIDENCE.share_worth_naming else ""
+    whole = alone if identify.closure is None else identify.closure
+    weighed = ", as the noise weighs it" if alone > whole + EVIDENCE.share_worth_naming else ""
     closes, stand_ins = f"; {title(first)} alone closes {percent(alone)} of the gap{weighed}", titles(parts.undivided)
     if {*parts.undivided} <= {*parts.named}:  # none of them is enough
         others = titles([name for name in parts.named if name != first])

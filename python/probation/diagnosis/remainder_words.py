@@ -63,12 +63,12 @@ def function_name(each: Dependence) -> str:
 
 
 def _size(curve: RemainderCurve) -> str:
-    """Where the function is largest, and how large: "the law, refitted beside it, is up to 12 % above …"."""
+    """Where the function is largest, and how large: "the law, refitted jointly, is up to 12 % above …"."""
     at = int(np.argmax(np.abs(curve.function_y)))
     value = float(curve.function_y[at])
     size = f"{percentage(0.01 * abs(value))} %" if curve.unit == "%" else f"{abs(value):.2g} MPa"
     side = "below" if value > 0.0 else "above"
-    return f"the law, refitted beside it, is up to {size} {side} the measured stress, at {_place(curve, at)}"
+    return f"the law, refitted jointly with it, is up to {size} {side} the measured stress, at {_place(curve, at)}"
 
 
 def _place(curve: RemainderCurve, at: int) -> str:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import chain
 from typing import TYPE_CHECKING
 
-from probation.diagnosis.headline import title
+from probation.diagnosis.headline import title, with_known
 from probation.inference.unknown import UNKNOWN
 from probation.report.diagnosis_words import (
     checks_text,
@@ -20,6 +20,7 @@ from probation.report.diagnosis_words import (
 )
 from probation.report.table import Table
 from probation.settings.evidence import EVIDENCE
+from probation.settings.smoothing import SMOOTHING
 from probation.wording import chance, percent, plus_minus, signed_percent
 
 if TYPE_CHECKING:
@@ -31,9 +32,6 @@ MOST = 8
 
 WORTH_A_ROW = 0.01
 """Share or probability below which a row may be left out."""
-
-ROUNDING = 1e-12
-"""Noise of a strain that is none."""
 
 P_VALUE = "p: how often noise alone would do it"
 
@@ -237,7 +235,7 @@ def _of_which_fit(diagnosis: Diagnosis) -> str:
 
 
 def _beyond_rounding(strain_noise: float) -> float:
-    return strain_noise if strain_noise > ROUNDING else 0.0
+    return strain_noise if strain_noise > SMOOTHING.clean else 0.0
 
 
 def acting(diagnosis: Diagnosis) -> bool:
@@ -250,7 +248,7 @@ def mended_by(diagnosis: Diagnosis) -> str:
     known = diagnosis.shrink.effects
     if not known:
         return ""
-    shown = next(each for each in diagnosis.explanations if {*each.effects} - {UNKNOWN} == {*known})
+    shown = with_known(known, diagnosis.explanations)
     return explanation_name(replace(shown, effects=known, titles=tuple(title(name) for name in known)), diagnosis)
 
 
