@@ -160,7 +160,8 @@ def causes_of(
     hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)
 
-    weighed = probabilities_of(hypotheses, effect_count(considered), trust_in(calibration))
+    acting = [hypothesis for hypothesis in hypotheses if not hypothesis.idle]
+    weighed = probabilities_of(acting, effect_count(considered), trust_in(calibration))
     weighed = none_behind(account.ranked(given_a_gap(weighed, p_value)))
     left, checked = _judged(leading(weighed), base, account, seed)
     best = weighed[0]
