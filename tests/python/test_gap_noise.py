@@ -9,6 +9,7 @@ from scipy.linalg import toeplitz
 
 from campaigns import gap_noise
 from probation import InputError
+from probation.detection.noise_without_sharp import without_sharp
 from probation.noise.arma import Arma, Periodogram, fit_arma
 from probation.noise.estimate import estimate_noise
 from probation.noise.outliers import find_outliers
@@ -132,6 +133,26 @@ def test_a_single_outlier_is_a_spike_and_leaves_the_noise_alone():
     noise = estimate_noise([replace(records[0], residual=hit), *records[1:]])[0]
     assert noise.outliers == (300,)
     assert noise.sigma == pytest.approx(0.04, rel=0.1)
+
+
+@pytest.mark.parametrize("lasts", [5, 15, 40])
+def test_a_slip_from_which_the_stress_recovers_is_no_noise(lasts):
+    """Fifty times the noise at once, in one record of 500 samples, or a fifth of that in all of them."""
+    since = np.arange(500) - 290
+    slip = np.where(since >= 0, 2.0 * np.exp(-np.maximum(since, 0) / lasts), 0.0)
+    for bias in ([slip, *[0.0 * slip] * 5], [0.2 * slip] * 6):
+        found = without_sharp(gap_noise.records("white", rng(9), 500, bias)).noises
+        assert [noise.sigma for noise in found] == pytest.approx([0.04] * 6, rel=0.15)
+
+
+def test_a_toe_with_an_edge_is_no_noise():
+    """A strip that is pulled straight ends its toe between two samples: what no smooth curve takes is in one place."""
+    at = np.arange(500)
+    toe = np.where(at < 25, 0.8 * np.sqrt(np.maximum(1.0 - at / 25.0, 0.0)), 0.0) + np.where(
+        (at >= 25) & (at < 40), 0.2, 0.0
+    )
+    found = estimate_noise(gap_noise.records("white", rng(10), 500, [toe, *[0.0 * toe] * 5]))
+    assert found[0].sigma == pytest.approx(0.04, rel=0.1)
 
 
 def test_a_step_is_no_spike_and_neither_is_a_transient_after_a_jump():

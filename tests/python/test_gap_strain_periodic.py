@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from campaigns import linear_problem as problem
-from probation.detection.noise_without_waves import without_waves
+from probation.detection.noise_without_sharp import without_sharp
 from probation.detection.strain_periodic import find_strain_periodic, likely_periods, strain_periodic_waves
 from probation.noise.arma import Arma
 from probation.noise.record_residual import RecordResidual
@@ -127,7 +127,7 @@ def test_a_specimen_that_is_not_strained_keeps_its_noise_beside_two_that_share_a
         records[index] = replace(records[index], residual=records[index].residual + wave)
     held = np.full(COUNT, strains[2][0])
     records[2] = replace(records[2], true_strain=held, strain_rate=np.zeros(COUNT), tangent=np.ones((COUNT, 1)))
-    left = without_waves(records)
+    left = without_sharp(records)
     np.testing.assert_array_equal(left.records[2].residual, records[2].residual)
     for index in range(3):
         assert left.noises[index].deviation.mean() == pytest.approx(problem.SIGMA, rel=0.15)

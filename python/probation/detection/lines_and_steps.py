@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -131,7 +131,8 @@ def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: in
     """The strongest step of every record by a matched filter, by p-value (docs/diagnosis-method.md, section 3).
 
     What a step leaves after slow waves, fades and the record's own refit are projected out is compared with what the
-    residual leaves; the largest score is held against draws of the largest score under the null.
+    residual leaves, for steps that stay and for such from which the stress recovers; the largest score is held against
+    draws of the largest score under the null.
 
     Parameters
     ----------
@@ -145,30 +146,64 @@ def find_steps(whitened: Whitened, *, size: int = DETECTION.step_draws, seed: in
         if filters is None:
             continue
         record = whitened.records[index]
-        left, white = left_by_slow_waves(whitened, index, None)
-        best = int(filters.instants[int(np.argmax(np.abs(filters.steps.T @ left)))])
-        near = np.arange(max(best - filters.stride, 3), min(best + filters.stride + 1, len(record) - 2))
-        fine, norm = _steps(record, whitened.noises[index], white, near)
-        at = int(np.argmax(np.abs(fine.T @ left)))
-        along = float(fine[:, at] @ left)
-        score = along / _local_noise_sd(left, int(near[at])) / _spread_by_wander(whitened, index, white, fine[:, at])
-        freedom = _freedom(
-            np.delete(
-                left,
-                slice(
-                    max(int(near[at]) - DETECTION.step_neighbours[1], 0), int(near[at]) + DETECTION.step_neighbours[1]
-                ),
-            )
-        )
+        found = _strongest_step(whitened, index, filters)
         # The finer instants that only the best place is given: each is nearly one of the coarse ones.
-        single = max(float(normal_tail(abs(score), filters.spread)), float(student_tail(abs(score), freedom)))
-        family = float(family_p_value(single, filters.drawn))
+        family = float(family_p_value(found.single, filters.drawn))
         p_value = smallest_of_many(family, len(whitened.records))
-        place = int(near[at])
-        strongest.append(
-            Step(record.name, float(record.time[place]), float(record.true_strain[place]), along / norm[at], p_value)
-        )
+        time, strain = float(record.time[found.place]), float(record.true_strain[found.place])
+        strongest.append(Step(record.name, time, strain, found.size, p_value))
     return tuple(sorted(strongest, key=lambda step: step.p_value))
+
+
+def without_steps(whitened: Whitened, level: float) -> dict[int, RecordResidual]:
+    """Records without their strongest steps, where these have a p-value below a level among all that were tried."""
+    taken = {}
+    for index, record in enumerate(whitened.records):
+        filters = _step_filters_of(record, whitened.noises[index])
+        if filters is None:
+            continue
+        found = _strongest_step(whitened, index, filters)
+        if smallest_of_many(found.single, filters.steps.shape[1] * len(whitened.records)) < level:
+            step = _recovering(len(record), np.array([found.place]), found.recovery)[:, 0]
+            taken[index] = replace(record, residual=record.residual - found.size * step)
+    return taken
+
+
+class _Found(NamedTuple):
+    """The strongest step of one record.
+
+    Attributes
+    ----------
+    place : int
+        The first sample after it.
+    recovery : float
+        Part of the record in which the stress recovers from it.
+    size : float
+        Of the model minus the data [MPa].
+    single : float
+        Its p-value, were it the only one that was tried.
+    """
+
+    place: int
+    recovery: float
+    size: float
+    single: float
+
+
+def _strongest_step(whitened: Whitened, index: int, filters: _StepFilters) -> _Found:
+    """The best of the filters, and around it the best instant; the noise there is what the step itself leaves."""
+    record = whitened.records[index]
+    left, white = left_by_slow_waves(whitened, index, None)
+    coarse = int(np.argmax(np.abs(filters.steps.T @ left)))
+    recovery, best = filters.recoveries[coarse], int(filters.instants[coarse])
+    near = np.arange(max(best - filters.stride, 3), min(best + filters.stride + 1, len(record) - 2))
+    fine, norm = _steps(record, whitened.noises[index], white, near, recovery)
+    at = int(np.argmax(np.abs(fine.T @ left)))
+    along, place = float(fine[:, at] @ left), int(near[at])
+    rest = left - along * fine[:, at]
+    score = along / _local_noise_sd(rest, place) / _spread_by_wander(whitened, index, white, fine[:, at])
+    single = max(float(normal_tail(abs(score), filters.spread)), float(student_tail(abs(score), _freedom(rest))))
+    return _Found(place, recovery, along / float(norm[at]), single)
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,16 +214,19 @@ class _StepFilters:
     ----------
     instants : ndarray, shape (m,)
         Samples before which a step is tried, `stride` apart.
+    recoveries : ndarray, shape (m,)
+        Part of the record in which the stress recovers from it.
     stride : int
     steps : ndarray, shape (n, m)
         Whitened, projected and normalised.
     spread : float
         Standard deviation of the logarithm of the noise's size.
     drawn : ndarray, shape (size,)
-        P-values of the largest score in draws of the noise.
+        P-values of the largest score in draws of the noise; none until these are asked for.
     """
 
     instants: NDArray[np.intp]
+    recoveries: FloatArray
     stride: int
     steps: FloatArray
     spread: float
@@ -203,36 +241,43 @@ def _step_filters(
     rng = np.random.default_rng(seed)
     found: list[_StepFilters | None] = []
     for record, noise in zip(records, noises, strict=True):
-        count = len(record)
-        if count < DETECTION.fewest_for_steps * DETECTION.slowest_line:
-            found.append(None)
-            continue
-        stride = -(-count // DETECTION.step_candidates)
-        instants = np.arange(max(stride, 3), count - 2, stride)
-        steps, _ = _steps(record, noise, _slow_waves(record, noise, None), instants)
-        spread = 0.5 * float(np.sqrt(noise.level_variance + noise.shape_variance))
-        values, vectors = np.linalg.eigh(steps.T @ steps)
-        root = vectors * np.sqrt(np.maximum(values, 0.0))
-        drawn = np.max(np.abs(rng.standard_normal((size, len(values))) @ root.T), axis=1)
-        drawn *= np.exp(spread * rng.standard_normal(size))
-        found.append(_StepFilters(instants, stride, steps, spread, normal_tail(drawn, spread)))
+        filters = _step_filters_of(record, noise)
+        if filters is not None:
+            values, vectors = np.linalg.eigh(filters.steps.T @ filters.steps)
+            root = vectors * np.sqrt(np.maximum(values, 0.0))
+            drawn = np.max(np.abs(rng.standard_normal((size, len(values))) @ root.T), axis=1)
+            drawn *= np.exp(filters.spread * rng.standard_normal(size))
+            filters = replace(filters, drawn=normal_tail(drawn, filters.spread))
+        found.append(filters)
     return tuple(found)
 
 
-def _local_noise_sd(left: FloatArray, place: int) -> float:
-    """Size of the noise around an instant, the step itself left out, over the usual one; not below 1.
+@lru_cache(maxsize=KEPT)
+def _step_filters_of(record: RecordResidual, noise: NoiseModel) -> _StepFilters | None:
+    """Without draws."""
+    count = len(record)
+    if count < DETECTION.fewest_for_steps * DETECTION.slowest_line:
+        return None
+    stride = -(-count // DETECTION.step_candidates)
+    instants = np.arange(max(stride, 3), count - 2, stride)
+    white = _slow_waves(record, noise, None)
+    steps = [_steps(record, noise, white, instants, recovery)[0] for recovery in DETECTION.step_recoveries]
+    kinds = len(DETECTION.step_recoveries)
+    spread = 0.5 * float(np.sqrt(noise.level_variance + noise.shape_variance))
+    recoveries = np.repeat(DETECTION.step_recoveries, len(instants))
+    return _StepFilters(np.tile(instants, kinds), recoveries, stride, np.hstack(steps), spread, np.ones(0))
 
-    The noise model may have missed a burst; a step is looked for with short windows, and would find it. After a slip
-    the stress recovers: what follows a straight line there is no noise.
+
+def _local_noise_sd(rest: FloatArray, place: int) -> float:
+    """Size of what a step leaves around its instant, over the usual one; not below 1.
+
+    The noise model may have missed a burst; a step is looked for with short windows, and would find it.
     """
     size = 1.0
     for reach in DETECTION.step_neighbours:
-        before, after = left[max(place - reach, 0) : max(place - 1, 0)], left[place + 2 : place + reach]
-        if before.size + after.size > reach:
-            line = np.linalg.qr(np.vander(np.arange(after.size), 2))[0]
-            after = after - line @ (line.T @ after)
-            squares, freedom = float(before @ before + after @ after), before.size + after.size - line.shape[1]
-            size = max(size, float(np.sqrt(squares / freedom)))
+        near = np.concatenate([rest[max(place - reach, 0) : max(place - 1, 0)], rest[place + 2 : place + reach]])
+        if near.size > reach:
+            size = max(size, float(np.sqrt(np.mean(near**2))))
     return size
 
 
@@ -286,13 +331,19 @@ def speed_wander_in(whitened: Whitened, index: int, white: FloatArray) -> FloatA
 
 
 def _steps(
-    record: RecordResidual, noise: NoiseModel, white: FloatArray, instants: NDArray[np.intp]
+    record: RecordResidual, noise: NoiseModel, white: FloatArray, instants: NDArray[np.intp], recovery: float
 ) -> tuple[FloatArray, FloatArray]:
     """Unit steps at the instants, whitened and projected, normalised; and their norms."""
-    columns = noise.whiten((np.arange(len(record))[:, None] >= instants).astype(np.float64))
+    columns = noise.whiten(_recovering(len(record), instants, recovery))
     columns = columns - white @ (white.T @ columns)
     norm = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
     return columns / norm, norm
+
+
+def _recovering(count: int, instants: NDArray[np.intp], recovery: float) -> FloatArray:
+    """Unit steps at the instants, less by a factor of e after every such part of the record, shape (count, m)."""
+    since = np.arange(count)[:, None] - instants
+    return np.where(since >= 0, np.exp(-np.maximum(since, 0) / (recovery * count)), 0.0)
 
 
 def _power(time: FloatArray, values: FloatArray, frequency: FloatArray, duration: float) -> FloatArray:

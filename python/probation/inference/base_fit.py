@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from probation.detection.noise_without_waves import without_waves
+from probation.detection.noise_without_sharp import without_sharp
 from probation.effects.record_view import views_of
 from probation.inference.candidate import Extended, WhitenedColumns, for_a_search_only, for_a_test
 from probation.inference.deviations import deviation_columns
@@ -59,7 +59,7 @@ NoiseEstimator: TypeAlias = "Callable[[Sequence[RecordResidual]], tuple[NoiseMod
 
 def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
     """Every record's noise, its drift included; waves in the residuals are none of it."""
-    whitened = without_waves(residuals)
+    whitened = without_sharp(residuals)
     noises, drift = whitened.noises, estimate_drift(whitened)
     of_effects = like_an_effect(drift)
     return tuple(

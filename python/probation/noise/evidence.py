@@ -119,7 +119,10 @@ def _rough(segments: list[FloatArray], profiles: list[FloatArray], degree: int, 
                 for _, power, _ in rows
             ]
         )
-        rows = [row for row, size in zip(rows, low, strict=True) if size <= NOISE.transient_ratio * np.median(low)]
+        # And size: a transient with an edge has both, and the profile holds what comes in bursts.
+        size = np.array([np.average(power, weights=weight) for _, power, weight in rows])
+        kept = (low <= NOISE.transient_ratio * np.median(low)) & (size <= NOISE.transient_ratio * np.median(size))
+        rows = [row for row, clean in zip(rows, kept, strict=True) if clean] or rows
     frequency, power, weight = (np.concatenate([row[i] for row in rows]) for i in range(3))
     return Periodogram(frequency, power, weight)
 

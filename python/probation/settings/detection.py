@@ -91,6 +91,11 @@ class DetectionSettings:
         "Half periods per record from which on a wave counts as periodic; slower ones are a smooth gap.",
     )
     step_candidates: int = chosen(128, "instants", "Instants per record at which a step is first looked for.")
+    step_recoveries: tuple[float, ...] = chosen(
+        (float("inf"), 0.08, 0.025),
+        "record",
+        "Parts of a record in which the stress recovers from a step: not at all, slowly, or at once.",
+    )
     step_neighbours: tuple[int, ...] = chosen(
         (6, 14), "samples", "Samples on each side of a step by which the noise there is judged, closely and less so."
     )
@@ -101,14 +106,14 @@ class DetectionSettings:
     line_neighbours: int = chosen(
         60, "frequencies", "Frequencies whose median power a line is measured against, if that is above the noise's."
     )
-    wave_is_no_noise: float = chosen(
+    sharp_is_no_noise: float = chosen(
         1e-5,
         "p-value",
-        "Level below which a line in time, or what is periodic in the strain, is taken out of a residual before its "
-        "noise is estimated.",
+        "Level below which a step, a line in time, or what is periodic in the strain, is taken out of a residual "
+        "before its noise is estimated.",
     )
-    most_waves: int = chosen(
-        4, "waves", "So many lines of a record, and so many strain periods, are taken out at most."
+    most_taken_out: int = chosen(
+        4, "-", "So many steps and lines of a record, and so many strain periods, are taken out at most."
     )
     noise_without_strain_period: float = chosen(
         0.5,
