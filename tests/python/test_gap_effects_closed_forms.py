@@ -393,6 +393,19 @@ def test_hardening_that_is_delayed_in_strain_waits_for_no_time():
     np.testing.assert_allclose(found[1:], 2.0 * part * views[0].haward_thackray_strain[1:], rtol=2e-3, atol=2e-3)
 
 
+def test_a_network_that_is_built_with_the_fibrils_is_there_in_part_by_the_largest_strain():
+    """Relaxed: G (1 - a) before, G after; at the fibrils' strain a/e of it lacks; unloading takes nothing away."""
+    fine = np.linspace(0.0, 900.0, 1801)
+    strain = np.interp(fine, [0.0, 700.0, 900.0], [0.0, 1.0, 0.4])
+    record = Record("r", fine, strain, np.zeros(1801), noise=Noise(0.04, 0.0))
+    found, views = predicted(QUICK, record, "delayed_hardening", "transition", (0.6, 0.3, 4.0))
+    there = found[1:] / (2.0 * views[0].haward_thackray_strain[1:])
+    rising = strain[1:1401]
+    assert there[np.searchsorted(rising, 0.1)] == pytest.approx(0.4, abs=0.01)
+    assert there[np.searchsorted(rising, 0.3)] == pytest.approx(1.0 - 0.6 / np.e, abs=0.005)
+    np.testing.assert_allclose(there[1400:], 1.0, atol=0.002)
+
+
 @pytest.mark.parametrize("relaxation_strain", [1e-5, 1e-3, 0.2, 50.0])
 def test_an_element_that_relaxes_with_strain_is_a_maxwell_element_with_the_strain_for_time(relaxation_strain):
     """Also where the strain is thousands of relaxation strains long."""

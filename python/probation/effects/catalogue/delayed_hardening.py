@@ -17,6 +17,27 @@ if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.effects.record_view import RecordView
 
+_BUILT_AT = EffectParameter(
+    name="fibril_strain",
+    unit="",
+    lower=0.02,
+    upper=2.0,
+    centre=0.3,
+    scale=0.7,
+    log=True,
+    reason="fibrils form within some tenths of strain after yield",
+)
+_SHARPNESS = EffectParameter(
+    name="transition_exponent",
+    unit="",
+    lower=1.0,
+    upper=8.0,
+    centre=2.5,
+    scale=0.5,
+    log=True,
+    reason="from a rate that begins at once to a step; 2 to 4 are transformations whose nuclei grow",
+)
+
 SMALL = 1e-9
 """e_HT [-] below which the hardening is zero to rounding."""
 
@@ -68,6 +89,11 @@ def _in_strain(view: RecordView, values: Values) -> Modification | None:
     return Modification(hardening_factor=1.0 - _part_of(missing, strain))
 
 
+def _built(view: RecordView, values: Values) -> Modification:
+    """The part a of G is built with the fibrils, as 1 - e^(-(e/e_c)^n), e the largest strain so far."""
+    return Modification(hardening_factor=1.0 - values[0] * np.exp(-((view.largest_strain / values[1]) ** values[2])))
+
+
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Build-up times of 3 and 30 % of the longest record [s]."""
     longest = max(view.duration for view in views)
@@ -75,16 +101,28 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     return [(float(time),) for time in times]
 
 
+def _starts_of_transition(
+    views: Sequence[RecordView], residuals: Sequence[FloatArray] | None
+) -> list[tuple[float, ...]]:
+    """Built about at a third and at two thirds of the largest true strain."""
+    largest = max(float(np.max(view.largest_strain)) for view in views)
+    return [
+        (float(np.clip(part * largest, _BUILT_AT.lower, _BUILT_AT.upper)), _SHARPNESS.centre) for part in (0.35, 0.65)
+    ]
+
+
 EFFECT = Effect(
     name="delayed_hardening",
     title="delayed hardening",
     physics=(
         "The fibrillar network forms in time, or with further strain, not at once: the relaxed stress lags.\n"
-        "Amplitude: the lag of all of it in time or in strain, or the part of it that lags in time."
+        "Amplitude: the lag of all of it in time or in strain, or the part of it that lags in time, or is built with "
+        "the fibrils."
     ),
     source=(
         "André et al., section 4 (G changes 'only in a delayed manner'); Farge et al. 2015; in strain: Armstrong & "
-        "Frederick 1966 (reprinted 2007, Mater. High Temp. 24, 1)"
+        "Frederick 1966 (reprinted 2007, Mater. High Temp. 24, 1); from spherulites to fibrils: Peterlin 1971, J. "
+        "Mater. Sci. 6, 490; Weibull 1951 (over a range of strains)"
     ),
     shows_in="fast records, dwells after large strains, unloading",
     kind="material",
@@ -114,6 +152,17 @@ EFFECT = Effect(
             modification=_in_strain,
             threshold=True,
             starts=lambda _views, _residuals: [(lag,) for lag in _LAGS],
+        ),
+        Form(
+            "transition",
+            (
+                EffectParameter("late_part", "", 0.0, 1.0, 0.3, "some tenths of the network"),
+                _BUILT_AT,
+                _SHARPNESS,
+            ),
+            modification=_built,
+            starts=_starts_of_transition,
+            variant=True,
         ),
     ),
 )
