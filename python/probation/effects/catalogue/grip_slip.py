@@ -55,9 +55,10 @@ def _slip(view: RecordView, values: Values) -> FloatArray:
 
 
 def _creeping(view: RecordView, values: Values) -> FloatArray:
-    """From an instant on the specimen creeps out of its grips, ever slower, and has lost a in the end.
+    """From an instant on the specimen creeps out of its grips, in the end ever slower, and has lost a then.
 
-    Of what is still to be lost after a time t, exp(-(t / t_c)^b) is left (Williams and Watts 1970).
+    Of what is still to be lost after a time t, exp(-(t / t_c)^b) is left (Williams and Watts 1970; b above 1: it
+    begins slowly).
     """
     since = np.maximum(view.elapsed - values[1] * view.duration, 0.0)
     return view.true_strain + values[0] * np.expm1(-((since / (values[2] * view.duration)) ** values[3]))
@@ -126,11 +127,11 @@ EFFECT = Effect(
                     name="stretching_exponent",
                     unit="",
                     lower=0.3,
-                    upper=1.0,
-                    centre=0.8,
-                    scale=0.3,
+                    upper=2.0,
+                    centre=1.0,
+                    scale=0.4,
                     log=True,
-                    reason="contacts that age creep over more decades than one time constant has",
+                    reason="contacts that age creep over more decades than one time constant has; others begin slowly",
                 ),
             ),
             driving_strain=_creeping,
