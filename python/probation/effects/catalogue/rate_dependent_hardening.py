@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 _EXPONENT = EffectParameter(
     name="hardening_rate_exponent",
     unit="",
-    lower=-0.3,
-    upper=0.3,
+    lower=-1.0,
+    upper=1.0,
     scale=0.05,
     reason="G of polyethylene and glassy polymers grows by about 10 % per decade of rate (0.04)",
 )
