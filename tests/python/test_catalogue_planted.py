@@ -656,6 +656,34 @@ def test_specimens_that_age_from_test_to_test():
     assert value(found, "log_time_gain") == pytest.approx(0.9 * np.log(16.0), rel=0.1)
 
 
+def eyring(law, time, strain, activation):
+    """Stress of a law whose relaxation times are divided by sinh(x)/x, x = |s| / activation: exponentials, in steps."""
+    part, times = law.spectrum.modal_weight, law.spectrum.relaxation_ratio * law.tau_max
+    network = law.hardening_modulus * (np.exp(2.0 * strain) - np.exp(-strain))
+    own, stress = np.zeros(len(part)), np.zeros(len(time))
+    for n, step in enumerate(np.diff(time)):
+        x = max(abs(stress[n]) / activation, 1e-6)
+        faster = times * x / np.sinh(x)
+        kept = np.exp(-step / faster)
+        flow = law.unrelaxed_modulus * part * (strain[n + 1] - strain[n]) / step * faster
+        own = own * kept + (part * 0.5 * (network[n] + network[n + 1]) + flow) * (1.0 - kept)
+        stress[n + 1] = own.sum()
+    return stress
+
+
+@pytest.mark.parametrize("stiffness", [1.0, 0.01])
+def test_flow_that_a_part_of_the_stress_makes_easy(stiffness):
+    """At a quarter of the yield stress, of a stiff polymer (10 MPa) as of a soft one, whose gain at 20 MPa is large."""
+    law = probation.Law(unrelaxed_modulus=1500.0 * stiffness, tau_max=8.0, hardening_modulus=2.5 * stiffness)
+    records = []
+    for seed, rate in enumerate((1e-3, 5e-3, 3e-2)):
+        time, strain = path(rate, [0.9])
+        stress = eyring(law, time, strain, 6.0 * stiffness)[::FINE]
+        noisy = stress + 0.04 * stiffness * np.random.default_rng(seed).standard_normal(len(stress))
+        records.append(Record(f"at-{rate:g}", time[::FINE], strain[::FINE], noisy))
+    named(campaign(records), "stress_activated_flow")
+
+
 def test_a_network_of_short_chains():
     """The inverse Langevin function by Cohen's rational form, three chains of 1.9 links."""
     root = np.sqrt(1.9)

@@ -1,10 +1,11 @@
-"""The rig's faults once more, for sizes far beyond those of a sound rig; and a network that locks at once.
+"""The rig's faults once more, for sizes far beyond those of a sound rig; a network that locks at once; easy flow.
 
 The catalogue's priors say what a sound rig has: some per cent of the force, some tenths of a per cent of the strain. A
 crosshead that shows twice the specimen's strain lies forty of their standard deviations away; as long as such a prior
 is all there is, a plain large fault is impossible and something else, or an unknown effect, is certain. So each fault
 that can be large has its forms a second time, with a prior as wide as the records are large. Networks of long chains
-lock at stretches of ten; one of short chains, or a drawn one, within some tenths of strain.
+lock at stretches of ten; one of short chains, or a drawn one, within some tenths of strain. And where 20 MPa activate
+the flow of a stiff polymer, a tenth of that may do so with a soft one.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from probation.effects.catalogue.stress_activated_flow import REFERENCE_STRESS
 from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
@@ -190,6 +192,16 @@ def _locking(effect: Effect, size: _Size) -> tuple[Form, ...]:
     )
 
 
+def _flow(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    # Eyring's gain at the reference stress goes with the square of that over the activation stress.
+    amplitude = effect.form("eyring").amplitude
+    softer = max(REFERENCE_STRESS / max(size.force, 1e-300), 1.0) ** 2
+    return tuple(
+        _widened(effect.form(name), EFFECTS.easy_flow * softer, amplitude.lower, amplitude.upper * 10.0 * softer)
+        for name in ("eyring", "power")
+    )
+
+
 _LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
     "cell_hysteresis": _hysteresis,
     "force_gain": _gain,
@@ -199,4 +211,5 @@ _LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
     "finite_extensibility": _locking,
     "machine_compliance": _compliance,
     "strain_offset": _slack,
+    "stress_activated_flow": _flow,
 }

@@ -44,6 +44,12 @@ class EffectsSettings:
     )
     large_lag: float = chosen(3.0, "s", "Standard deviation of a gross lag between force and strain.")
     lag_starts: tuple[float, ...] = chosen((0.5, 4.0), "s", "Such lags from which searches begin.")
+    easy_flow: float = chosen(
+        3.0,
+        "-",
+        "Standard deviation of the gain of flow at 20 MPa, or at the largest force where that is less, where stress "
+        "makes flow easy.",
+    )
     short_chains: float = chosen(
         0.1, "-", "Standard deviation of 1/(5 N) of a network that locks soon, chains of N = 2 links."
     )
