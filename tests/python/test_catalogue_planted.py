@@ -684,6 +684,27 @@ def test_flow_that_a_part_of_the_stress_makes_easy(stiffness):
     named(campaign(records), "stress_activated_flow")
 
 
+@pytest.mark.parametrize("stiffness", [1.0, 20.0])
+def test_a_specimen_that_is_clamped_under_stress(stiffness):
+    """4 % of the largest stress when the record starts: 1.2 MPa of a polymer, 24 MPa of what is as stiff as a metal.
+
+    Every mode carries its part, and relaxes.
+    """
+    law = probation.Law(unrelaxed_modulus=1500.0 * stiffness, tau_max=8.0, hardening_modulus=2.5 * stiffness)
+    part, times = law.spectrum.modal_weight, law.spectrum.relaxation_ratio * law.tau_max
+    records = []
+    for seed, rate in enumerate((1e-3, 5e-3, 3e-2)):
+        time, strain = path(rate, [0.9])
+        stress = law.stress(time, strain, scheme="sa3")
+        if seed == 1:
+            stress = stress + 1.2 * stiffness * np.exp(-np.divide.outer(time, times)) @ part
+        stress = stress[::FINE] + 0.04 * stiffness * np.random.default_rng(seed).standard_normal(len(stress[::FINE]))
+        records.append(Record(f"at-{rate:g}", time[::FINE], strain[::FINE], stress))
+    found = named(campaign(records), "prestress")
+    assert found.best.records == ("at-0.005",)
+    assert found.best.parameters[0].value == pytest.approx(1.2 * stiffness, rel=0.15)
+
+
 def test_a_network_of_short_chains():
     """The inverse Langevin function by Cohen's rational form, three chains of 1.9 links."""
     root = np.sqrt(1.9)

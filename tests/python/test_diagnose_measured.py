@@ -5,9 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench import measured_cases
 
-from probation import Campaign, Specimens, diagnose
+from campaigns import measured
+from probation import Campaign, Reference, Specimens, compare, diagnose
 from probation.diagnosis import attribution
+from probation_studies.blind.inject import Injection
 
 DATA = Path(__file__).parents[2].parent / "shared" / "data"
 pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="the measured records are not beside the checkout")
@@ -105,3 +108,24 @@ def test_effects_that_leave_many_times_less_together_are_all_named(monkeypatch):
     assert {each.name for each in found.effects if each.named} == {"damage", "slow_process"}
     assert f"to {found.shrink.identify.after_MPa:.3g} MPa" in found.headline
     assert found.shrink.identify.after_MPa < 0.1 * found.shrink.identify.before_MPa
+
+
+def test_the_back_stress_of_a_steel_is_named_with_a_size_that_no_polymer_has():
+    """S355, strain cycles; Voce's law has none."""
+    law = measured_cases.isotropic_metal(measured_cases.MODULUS_OF_STEEL)
+    found = diagnose(measured_cases.cycles_of_steel(), law=law, design=False)
+    assert found.effects[0].name == "back_stress"
+    assert found.best.effects == ("back_stress",)
+    assert found.best.parameters[0].value > 100.0
+    assert found.shrink.identify.closure > 0.85
+
+
+def test_a_gain_put_into_vhb_is_named_without_a_slack_that_closes_next_to_nothing():
+    """A slack of 0.0004 in all records gains evidence, and adds less than a hundredth of the gap."""
+    before = measured.measured("vhb")
+    name = before.records[0].id
+    after = measured.injected(before, Injection(name, "force_gain", -0.4, 1))
+    found = compare(after, Reference.of(before), threads=1)
+    assert found.headline.startswith(f"Since vhb: force gain in {name} (probability > 99 %): gain_error = -0.4 (95 %: ")
+    assert "strain offset" not in found.headline
+    assert found.best.parameters[0].value == pytest.approx(-0.4, abs=0.01)

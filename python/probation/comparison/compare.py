@@ -14,6 +14,7 @@ from probation.comparison.pairing import pair
 from probation.comparison.reference import Reference
 from probation.comparison.result import ChangeCurves, ChangedParameter, ChangeExplanation, Comparison
 from probation.detection.gap_test import GapTester
+from probation.diagnosis.attribution import attribution
 from probation.diagnosis.budget import Budget
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.headline import with_budget
@@ -127,10 +128,9 @@ def compare(
     )
     advance(Part(0.9, "measuring what causes close"))
     causes, shrink, curves = causes.shrunk((), skipping, seed=seed)
-    explanations = tuple(
-        _explanation(weighed, test, fitted=causes.verdict != "no_gap")
-        for weighed in causes.with_untried(causes.weighed)
-    )
+    weighed = causes.with_untried(causes.weighed)
+    explanations = tuple(_explanation(each, test, fitted=causes.verdict != "no_gap") for each in weighed)
+    parts = attribution(causes.base, weighed, causes.nearest, causes.found, shrink.identify, workers)
     verdict: Verdict = "nothing_changed" if causes.verdict == "no_gap" else "changed"
     if explanations[0].effects == (UNKNOWN,):
         verdict = "unknown_change"
@@ -139,7 +139,13 @@ def compare(
         reference=reference.campaign.name,
         verdict=verdict,
         headline=with_budget(
-            headline(explanations[0], len(kept.records), reference.campaign.name, left=causes.verdict == "unexplained"),
+            headline(
+                explanations[0],
+                parts,
+                len(kept.records),
+                reference.campaign.name,
+                left=causes.verdict == "unexplained",
+            ),
             causes.cut_text,
         ),
         pairs=together,

@@ -1,11 +1,11 @@
-"""The rig's faults once more, for sizes far beyond those of a sound rig; a network that locks at once; easy flow.
+"""The rig's faults once more, for sizes far beyond those of a sound rig; and what other materials do by as much.
 
 The catalogue's priors say what a sound rig has: some per cent of the force, some tenths of a per cent of the strain. A
 crosshead that shows twice the specimen's strain lies forty of their standard deviations away; as long as such a prior
 is all there is, a plain large fault is impossible and something else, or an unknown effect, is certain. So each fault
 that can be large has its forms a second time, with a prior as wide as the records are large. Networks of long chains
-lock at stretches of ten; one of short chains, or a drawn one, within some tenths of strain. And where 20 MPa activate
-the flow of a stiff polymer, a tenth of that may do so with a soft one.
+lock at stretches of ten; one of short chains, or a drawn one, within some tenths of strain. Where 20 MPa activate the
+flow of a stiff polymer, a tenth of that may do so with a soft one. A metal's back stress is a good part of its stress.
 """
 
 from __future__ import annotations
@@ -85,6 +85,11 @@ def _gain(effect: Effect, size: _Size) -> tuple[Form, ...]:
 
 def _offset(effect: Effect, size: _Size) -> tuple[Form, ...]:
     return (_widened(effect.form("constant"), EFFECTS.large_force * size.force, -size.force, size.force),)
+
+
+def _prestress(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    scale = EFFECTS.large_prestress * size.force
+    return tuple(_widened(effect.form(name), scale, -size.force, size.force) for name in ("fresh", "held"))
 
 
 def _drift(effect: Effect, size: _Size) -> tuple[Form, ...]:
@@ -202,7 +207,14 @@ def _flow(effect: Effect, size: _Size) -> tuple[Form, ...]:
     )
 
 
+def _back_stress(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    names = ("armstrong_frederick", "several_surfaces", "slip_element")
+    scale = EFFECTS.large_back_stress * size.force
+    return tuple(_widened(effect.form(name), scale, 0.0, size.force) for name in names)
+
+
 _LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
+    "back_stress": _back_stress,
     "cell_hysteresis": _hysteresis,
     "force_gain": _gain,
     "force_offset": _offset,
@@ -210,6 +222,7 @@ _LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
     "force_strain_lag": _lag,
     "finite_extensibility": _locking,
     "machine_compliance": _compliance,
+    "prestress": _prestress,
     "strain_offset": _slack,
     "stress_activated_flow": _flow,
 }

@@ -42,6 +42,12 @@ class EffectsSettings:
     large_hysteresis: float = chosen(
         0.1, "largest force", "Standard deviation of a gross hysteresis: a guide or a joint of the load train rubs."
     )
+    large_prestress: float = chosen(
+        0.05, "largest force", "Standard deviation of a gross prestress: a stiff specimen that is clamped crookedly."
+    )
+    large_back_stress: float = chosen(
+        0.3, "largest force", "Standard deviation of a back stress that is a good part of the stress, as a metal's is."
+    )
     large_lag: float = chosen(3.0, "s", "Standard deviation of a gross lag between force and strain.")
     lag_starts: tuple[float, ...] = chosen((0.5, 4.0), "s", "Such lags from which searches begin.")
     easy_flow: float = chosen(
