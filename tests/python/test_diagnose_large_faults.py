@@ -5,7 +5,7 @@ import pytest
 
 import probation
 from probation.effects.cause import Cause
-from probation.effects.large_faults import with_large_faults
+from probation.effects.large_forms import with_large_forms
 from probation.effects.record_view import views_of
 from probation.effects.registry import effects
 from probation.inference.modal_law import DnlrLaw
@@ -170,7 +170,7 @@ def test_a_compliance_does_not_turn_noise_of_the_force_into_strain(slack):
 
     records = campaign({"grip1"}, fault).records
     views = views_of(probation.Campaign(name="one", records=(records[2],)), substeps=4)
-    compliance, offset = with_large_faults(effects(["machine_compliance", "strain_offset"]), views)
+    compliance, offset = with_large_forms(effects(["machine_compliance", "strain_offset"]), views)
     causes = [Cause(compliance, compliance.form("large_crosshead")), Cause(offset, offset.form("large_slack"))]
     for order in (causes, causes[::-1]):
         model = CampaignModel(DnlrLaw(LAW), views, order)

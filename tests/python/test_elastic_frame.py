@@ -5,7 +5,7 @@ import pytest
 
 import probation
 from probation.effects.cause import Cause
-from probation.effects.large_faults import with_large_faults
+from probation.effects.large_forms import with_large_forms
 from probation.effects.record_view import views_of
 from probation.effects.registry import effects
 from probation.inference.elastic_frame import ElasticFrame
@@ -84,7 +84,7 @@ def test_behind_a_soft_frame_a_screen_sees_other_effects_as_the_model_does():
     own = LAW.stress(TIME, 0.5 * TRAVEL, "sa2")
     record = probation.Record(id="soft", time=TIME, true_strain=TRAVEL, true_stress=own)
     views = views_of(probation.Campaign(name="one", records=(record,)), scheme="sa2")
-    (compliance,) = with_large_faults(effects(["machine_compliance"]), views)
+    (compliance,) = with_large_forms(effects(["machine_compliance"]), views)
     soft = CampaignModel(DnlrLaw(LAW), views, [Cause(compliance, compliance.form("large_crosshead"))])
     at = soft.parameters(LAW.parameters, [COMPLIANCE])
     known = effects(["damage", "rate_dependent_relaxation", "prestress", "delayed_hardening"])

@@ -148,7 +148,7 @@ IN_FUNCTIONS = {
     "smoothing/sines.py": {0.98, 60},
     "effects/coordinate.py": {10.0},
     "effects/effect.py": {1e-4, 1e-5},  # steps of difference quotients
-    "effects/large_faults.py": {0.9},  # bounds of a gain
+    "effects/large_forms.py": {0.9},  # bounds of a gain
     "effects/record_view.py": {1e-3},
     "effects/relaxation_spectra.py": {50.0},
     "inference/callable_law.py": {1000.0, 10.0, 1e7, 1e9},  # an example

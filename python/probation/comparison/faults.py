@@ -12,7 +12,7 @@ import numpy as np
 
 from probation._complaint import suggestion
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.effects.large_faults import crosshead_slack
+from probation.effects.large_forms import crosshead_slack
 from probation.effects.registry import effects
 from probation.errors import InputError
 from probation.law.modification import Modification

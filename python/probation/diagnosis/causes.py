@@ -25,7 +25,7 @@ from probation.diagnosis.remaining import leaves_too_much, remaining_gap
 from probation.diagnosis.search import Search
 from probation.diagnosis.shrink import shrink_of
 from probation.diagnosis.trust import Tempered, trust_in
-from probation.effects.large_faults import with_large_faults
+from probation.effects.large_forms import with_large_forms
 from probation.inference.base_fit import with_joint_noise
 from probation.inference.unknown import UNKNOWN
 from probation.settings.evidence import EVIDENCE
@@ -155,7 +155,7 @@ def causes_of(
         trust = Tempered(EVIDENCE.evidence_power)  # no form describes anything here
         weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), trust), p_value)
         return Causes(base, considered, hypotheses, weighed, {}, "no_gap")
-    considered = with_large_faults(considered, base.model.views)
+    considered = with_large_forms(considered, base.model.views)
     base, hypotheses, cut = _searched(base, considered, threads, skipping, budget, progress)
     hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)

@@ -56,6 +56,9 @@ class EffectsSettings:
         "Standard deviation of the gain of flow at 20 MPa, or at the largest force where that is less, where stress "
         "makes flow easy.",
     )
+    easiest_flow: float = chosen(
+        100.0, "-", "Largest such gain: an activation stress of 0.8 MPa where the force is above 20 MPa."
+    )
     short_chains: float = chosen(
         0.1, "-", "Standard deviation of 1/(5 N) of a network that locks soon, chains of N = 2 links."
     )

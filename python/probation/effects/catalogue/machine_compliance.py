@@ -57,7 +57,7 @@ def _contact(view: RecordView, values: Values) -> FloatArray:
 def _true_strain(view: RecordView, values: Values) -> FloatArray:
     """For a true stress that was not made from this strain; the compliance is then a true strain per nominal stress.
 
-    The values of the two forms differ by the stretch. Gross compliances: `effects/large_faults.py`.
+    The values of the two forms differ by the stretch. Gross compliances: `effects/large_forms.py`.
     """
     return view.true_strain - values[0] * view.nominal_data
 

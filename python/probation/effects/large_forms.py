@@ -1,4 +1,4 @@
-"""The rig's faults once more, for sizes far beyond those of a sound rig; and what other materials do by as much.
+"""Effects once more, for sizes far beyond those of a sound rig, or of a polymer.
 
 The catalogue's priors say what a sound rig has: some per cent of the force, some tenths of a per cent of the strain. A
 crosshead that shows twice the specimen's strain lies forty of their standard deviations away; as long as such a prior
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 
-def with_large_faults(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Effect, ...]:
-    """The same effects, those of the rig that can be large with further forms for that.
+def with_large_forms(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Effect, ...]:
+    """The same effects, those that can be large with further forms for that.
 
     Parameters
     ----------
     views : sequence of RecordView
-        Of the records: a fault is large relative to their forces and elongations.
+        Of the records: large is relative to their forces and elongations.
     """
     size = _Size.of(views)
     return tuple(
@@ -202,7 +202,7 @@ def _flow(effect: Effect, size: _Size) -> tuple[Form, ...]:
     amplitude = effect.form("eyring").amplitude
     softer = max(REFERENCE_STRESS / max(size.force, 1e-300), 1.0) ** 2
     return tuple(
-        _widened(effect.form(name), EFFECTS.easy_flow * softer, amplitude.lower, amplitude.upper * 10.0 * softer)
+        _widened(effect.form(name), EFFECTS.easy_flow * softer, amplitude.lower, EFFECTS.easiest_flow * softer)
         for name in ("eyring", "power")
     )
 
