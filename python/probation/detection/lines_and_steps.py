@@ -252,7 +252,6 @@ def _step_filters(
     return tuple(found)
 
 
-@lru_cache(maxsize=KEPT)
 def _step_filters_of(record: RecordResidual, noise: NoiseModel) -> _StepFilters | None:
     """Without draws."""
     count = len(record)
