@@ -19,6 +19,10 @@ from probation.records.noise import noise_level
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
     from probation._arrays import FloatArray
     from probation.noise.model import Growth
     from probation.noise.record_residual import RecordResidual
@@ -112,19 +116,34 @@ def _rough(segments: list[FloatArray], profiles: list[FloatArray], degree: int, 
     if not rows:
         return None
     if robust and len(rows) >= 3:
-        # Low against high: a burst of noise has both.
-        low = np.array(
-            [
-                np.mean(power[: NOISE.low_coefficients]) / max(float(np.mean(power[NOISE.low_coefficients :])), 1e-300)
-                for _, power, _ in rows
-            ]
-        )
-        # And size: a transient with an edge has both, and the profile holds what comes in bursts.
-        size = np.array([np.average(power, weights=weight) for _, power, weight in rows])
-        kept = (low <= NOISE.transient_ratio * np.median(low)) & (size <= NOISE.transient_ratio * np.median(size))
-        rows = [row for row, clean in zip(rows, kept, strict=True) if clean] or rows
+        rough = [
+            float(np.quantile(np.abs(np.diff(values / profile, 2)), NOISE.edgeless)) ** 2
+            for values, profile in zip(segments, profiles, strict=True)
+        ]
+        transient = _transient([power for _, power, _ in rows], rough)
+        rows = [row for row, out in zip(rows, transient, strict=True) if not out]
     frequency, power, weight = (np.concatenate([row[i] for row in rows]) for i in range(3))
     return Periodogram(frequency, power, weight)
+
+
+def _transient(powers: Sequence[FloatArray], rough: Sequence[float]) -> NDArray[np.bool_]:
+    """Which segments hold a transient of the model: from their powers, and from squares of large differences.
+
+    A burst of noise has high frequencies, too, and many large differences. A transient has low ones; one with an edge
+    has both, and few large differences.
+    """
+    low = [float(np.mean(power[: NOISE.low_coefficients])) for power in powers]
+    high = [float(np.mean(power[NOISE.low_coefficients :])) for power in powers]
+    slow = _over_median(np.array(low) / np.maximum(high, 1e-300))
+    large = _over_median(np.array([float(np.mean(power)) for power in powers]))
+    burst = _over_median(np.array(rough)) > NOISE.transient_ratio
+    return (slow > NOISE.transient_ratio) | ((large > NOISE.transient_size) & ~burst)
+
+
+def _over_median(values: FloatArray) -> FloatArray:
+    """Numbers that are not negative over their median."""
+    sizes = np.maximum(values, 1e-300)
+    return np.asarray(sizes / np.median(sizes))
 
 
 def _whole(values: FloatArray, basis: FloatArray, lowest: int, profile: FloatArray | float = 1.0) -> Periodogram:

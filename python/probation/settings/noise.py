@@ -85,6 +85,17 @@ class NoiseSettings:
         "A segment whose low frequencies hold this many times as much, relative to its high ones, as the median "
         "segment's holds a transient of the model, and is left out.",
     )
+    transient_size: float = chosen(
+        8.0,
+        "-",
+        "A segment that holds this many times as much as the median one holds a transient, too, unless its differences "
+        "from sample to sample are as large: a burst of noise.",
+    )
+    edgeless: float = chosen(
+        0.9,
+        "samples",
+        "Part of a segment's differences that an edge does not reach; the largest of them tells a burst.",
+    )
     quiet_samples: int = chosen(80, "samples", "Quiet samples that suffice for an estimate of their own.")
     coarse_step: float = chosen(
         1.2, "noise", "Readings whose step is this many standard deviations of the noise say nothing of how it grows."
