@@ -57,26 +57,6 @@ def every_place(effect, **options):
     return [hypothesis(Cause(effect, form, place), **options) for form in effect.forms for place in places]
 
 
-@pytest.mark.parametrize(("sizes", "idle"), [((0.3, 0.2), False), ((0.3, -0.05), True), ((0.0, 0.3), True)])
-def test_an_effect_whose_size_lies_within_a_standard_error_of_0_does_not_act(sizes, idle):
-    """Both known to 0.1."""
-    causes = [Cause(effect, effect.forms[0]) for effect in map(made, NAMES[:2])]
-    asked = BASE.problem.with_causes(causes)
-    found = replace(BASE, problem=asked, parameters=np.array([*asked.model.start[:-2], *sizes]))
-    covariance = 0.01 * np.eye(len(found.parameters))
-    assert Hypothesis(found, Evidence(0.0, 0.0, 0.0, covariance, 0.0)).idle is idle
-
-
-def test_what_acts_in_one_of_two_records_acts():
-    """A fault of the rig may have another size in every record, and none in some."""
-    effect = made("a", "rig")
-    causes = [Cause(effect, effect.forms[0], (view.id,)) for view in VIEWS[:2]]
-    asked = BASE.problem.with_causes(causes)
-    found = replace(BASE, problem=asked, parameters=np.array([*asked.model.start[:-2], 0.0, 0.5]))
-    assert not Hypothesis(found, Evidence(0.0, 0.0, 0.0, 0.01 * np.eye(len(found.parameters)), 0.0)).idle
-    assert not Hypothesis(BASE, Evidence(0.0, 0.0, 0.0, np.eye(len(BASE.parameters)), 0.0)).idle
-
-
 def test_probabilities_sum_to_one_and_come_in_order():
     rng = np.random.default_rng(0)
     found = [hypothesis(log_evidence=-3.0, unknown=-2.0)]

@@ -13,7 +13,6 @@ from probation.noise.arma import Arma
 from probation.noise.model import NoiseModel
 from probation.noise.regions import runs
 from probation.noise.whitening import Whitened
-from probation.settings.detection import DETECTION
 
 NAMES = ("unrelaxed_modulus", "tau_max", "hardening_modulus")
 COUNT = 500
@@ -124,7 +123,10 @@ def test_noise_that_a_moving_average_does_not_have_is_no_line(seed):
 
 
 def test_short_bursts_of_noise_are_no_steps():
-    """Six readings in a row, five times in each record, of seven times the noise: none in 15 campaigns is a gap."""
+    """Six readings in a row, five times in each record, of seven times the noise: of 15 no more than chance makes.
+
+    Of 120 six had p below 5 %, two below 0.5 %, none below 0.1 %.
+    """
     least = []
     for seed in range(15):
         rng = np.random.default_rng(100 + seed)
@@ -134,8 +136,8 @@ def test_short_bursts_of_noise_are_no_steps():
             for first in rng.integers(0, COUNT - 6, 5):
                 bursts[index][first : first + 6] += 0.2 * rng.standard_normal()
         least.append(find_steps(campaign(seed, bursts), size=500)[0].p_value)
-    assert min(least) > DETECTION.sharp_share * DETECTION.gap_level
-    assert np.sum(np.array(least) < 0.05) <= 3
+    assert min(least) > 1e-3
+    assert np.sum(np.array(least) < 0.05) <= 2
 
 
 def test_a_step_is_located_by_its_instant():

@@ -130,7 +130,9 @@ def compare(
     causes, shrink, curves = causes.shrunk((), skipping, seed=seed)
     weighed = causes.with_untried(causes.weighed)
     explanations = tuple(_explanation(each, test, fitted=causes.verdict != "no_gap") for each in weighed)
-    parts = attribution(causes.base, weighed, causes.nearest, causes.found, shrink.identify, workers)
+    parts = None
+    if len(causes.weighed[0].effects) > 1 and UNKNOWN not in causes.weighed[0].effects:
+        parts = attribution(causes.base, weighed, causes.nearest, causes.found, shrink.identify, workers)
     verdict: Verdict = "nothing_changed" if causes.verdict == "no_gap" else "changed"
     if explanations[0].effects == (UNKNOWN,):
         verdict = "unknown_change"

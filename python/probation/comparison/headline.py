@@ -24,27 +24,37 @@ def named(each: ChangeExplanation) -> str:
     return " and ".join(sorted(words, key=lambda word: word.startswith("something")))
 
 
-def headline(best: ChangeExplanation, parts: Attribution, count: int, reference: str, *, left: bool = False) -> str:
-    """One sentence, with the effects that close nearly all of the gap; `left` says that more than noise is left."""
+def headline(
+    best: ChangeExplanation, parts: Attribution | None, count: int, reference: str, *, left: bool = False
+) -> str:
+    """One sentence, with the effects that close nearly all of the gap; `left` says that more than noise is left.
+
+    Parameters
+    ----------
+    parts : Attribution or None
+        Of the best explanation; None where it is told as it is.
+    """
     if not best.effects:
         return f"Nothing changed since {reference} (probability {chance(best.probability)})."
-    all_told = UNKNOWN in best.effects or {*best.effects} <= {*parts.named, *parts.undivided}
-    told = best if all_told else _told(best, parts)
+    told = best if parts is None else _told(best, parts)
     where = "all records" if len(told.records) == count and count > 1 else ", ".join(told.records)
     text = f"Since {reference}: {named(told)} in {where} (probability {chance(told.probability)})"
     if told.parameters:
         text += ": " + "; ".join(sized(parameter) for parameter in told.parameters[:3])
-    if not all_told:
+    if len(told.effects) < len(best.effects):
         text += f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
     return text + ("; it leaves more than noise." if left and UNKNOWN not in best.effects else ".")
 
 
 def _told(best: ChangeExplanation, parts: Attribution) -> ChangeExplanation:
-    """Of the effects that are named."""
-    parameters = tuple(parameter for parameter in best.parameters if parameter.effect in parts.named)
+    """Of the effects that are named, and of those that can stand in for one of them."""
+    effects = tuple(name for name in best.effects if name in {*parts.named, *parts.undivided})
+    if len(effects) == len(best.effects):
+        return best
+    parameters = tuple(parameter for parameter in best.parameters if parameter.effect in effects)
     touched = {name for parameter in parameters for name in parameter.records}
     records = tuple(name for name in best.records if name in touched)
-    return replace(best, effects=parts.named, records=records, probability=parts.probability, parameters=parameters)
+    return replace(best, effects=effects, records=records, probability=parts.probability, parameters=parameters)
 
 
 def sized(each: ChangedParameter) -> str:

@@ -30,12 +30,12 @@ if TYPE_CHECKING:
 
 
 def without_sharp(records: Sequence[RecordResidual]) -> Whitened:
-    """The records without certain steps and waves, whitened by the noise that is left.
+    """The records without certain waves and steps, whitened by the noise that is left.
 
-    They are taken out one by one in every record, as long as that does not raise the noise. Steps come first: a
-    transient has a peak in its periodogram, too, and a wave in its place disturbs the rest of the record. Then come
-    lines in time. What is periodic in the strain has to lower the noise by much: a part of a gap that is not periodic
-    may look so.
+    They are taken out one by one in every record, as long as that does not raise its noise: a transient has a peak in
+    its periodogram, too, and a wave in its place disturbs the rest of the record. Lines in time come first. What is
+    periodic in the strain has to lower the noise by much: a part of a gap that is not periodic may look so. Steps come
+    last: teeth that recur are steps, too.
 
     Parameters
     ----------
@@ -44,9 +44,9 @@ def without_sharp(records: Sequence[RecordResidual]) -> Whitened:
     known: dict[RecordResidual, NoiseEvidence] = {}
     whitened = Whitened.of(records, estimate_noise(records, known=known))
     for strongest, most_left in (
-        (_steps, 1.0),
         (_lines, 1.0),
         (_strain_periodic, DETECTION.noise_without_strain_period),
+        (_steps, 1.0),
     ):
         whitened = _one_by_one(whitened, strongest, most_left, known)
     return whitened
@@ -58,15 +58,20 @@ def _one_by_one(
     most_left: float,
     known: dict[RecordResidual, NoiseEvidence],
 ) -> Whitened:
-    """As long as no more than a part of the noise is left of any record from which something was taken."""
+    """What leaves no more than a part of its record's noise; a record in which something leaves more stays as it is."""
+    refused: set[int] = set()
     for _ in range(DETECTION.most_taken_out):
-        taken = strongest(whitened)
+        taken = {index: record for index, record in strongest(whitened).items() if index not in refused}
+        while taken:
+            cleaned = [taken.get(index, record) for index, record in enumerate(whitened.records)]
+            after = Whitened.of(cleaned, estimate_noise(cleaned, known=known))
+            left = {i: after.noises[i].deviation.mean() / whitened.noises[i].deviation.mean() for i in taken}
+            raised = {index for index, part in left.items() if part > most_left}
+            if not raised:
+                break
+            refused |= raised
+            taken = {index: record for index, record in taken.items() if index not in raised}
         if not taken:
-            break
-        cleaned = [taken.get(index, record) for index, record in enumerate(whitened.records)]
-        after = Whitened.of(cleaned, estimate_noise(cleaned, known=known))
-        noises = [(whitened.noises[index], after.noises[index]) for index in taken]
-        if any(new.deviation.mean() > most_left * old.deviation.mean() for old, new in noises):
             break
         whitened = after
     return whitened

@@ -53,7 +53,7 @@ class Causes:
     base : BaseFit
         With the noise as the best explanation leaves it.
     considered : tuple of Effect
-        With the forms of large faults, where there is a gap.
+        With the large forms, where there is a gap.
     found : list of Hypothesis
         All that were solved.
     weighed : list of Weighed
@@ -160,8 +160,7 @@ def causes_of(
     hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)
 
-    acting = [hypothesis for hypothesis in hypotheses if not hypothesis.idle]
-    weighed = probabilities_of(acting, effect_count(considered), trust_in(calibration))
+    weighed = probabilities_of(hypotheses, effect_count(considered), trust_in(calibration))
     weighed = none_behind(account.ranked(given_a_gap(weighed, p_value)))
     left, checked = _judged(leading(weighed), base, account, seed)
     best = weighed[0]

@@ -60,19 +60,6 @@ class Hypothesis:
         return np.sqrt(np.maximum(np.diag(self.evidence.covariance), 0.0)) * slopes
 
     @property
-    def idle(self) -> bool:
-        """Whether an effect of it has no size: all its amplitudes lie within a standard error of 0.
-
-        Such an explanation is the one without that effect, and what it gains more is an error of that effect's form.
-        """
-        acting = {
-            cause.effect.name
-            for cause, at in zip(self.causes, self.refit.model.amplitudes, strict=True)
-            if abs(self.refit.parameters[at]) > self.deviations[at]
-        }
-        return not acting.issuperset(self.effects)
-
-    @property
     def causes(self) -> tuple[Cause, ...]:
         """Empty for the base law."""
         return self.refit.model.causes

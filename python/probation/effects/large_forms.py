@@ -66,7 +66,7 @@ class _Size(NamedTuple):
 def _widened(form: Form, scale: float, lower: float, upper: float, starts: tuple[float, ...] = ()) -> Form:
     """The form under another name, its amplitude with another prior and bounds; `starts` of the amplitude."""
     known = form.amplitude
-    wide = replace(known, scale=scale, lower=lower, upper=upper, reason="a gross fault", starts=())
+    wide = replace(known, scale=scale, lower=lower, upper=upper, reason="far beyond what is usual", starts=())
     nonlinear = form.nonlinear_starts(())
     grid = [(start, *others) for start in starts for others in nonlinear] if starts else nonlinear
     return replace(
@@ -201,9 +201,8 @@ def _flow(effect: Effect, size: _Size) -> tuple[Form, ...]:
     # Eyring's gain at the reference stress goes with the square of that over the activation stress.
     amplitude = effect.form("eyring").amplitude
     softer = max(REFERENCE_STRESS / max(size.force, 1e-300), 1.0) ** 2
-    return tuple(
-        _widened(effect.form(name), EFFECTS.easy_flow * softer, amplitude.lower, EFFECTS.easiest_flow * softer)
-        for name in ("eyring", "power")
+    return (
+        _widened(effect.form("eyring"), EFFECTS.easy_flow * softer, amplitude.lower, EFFECTS.easiest_flow * softer),
     )
 
 

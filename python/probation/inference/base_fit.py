@@ -58,7 +58,7 @@ NoiseEstimator: TypeAlias = "Callable[[Sequence[RecordResidual]], tuple[NoiseMod
 
 
 def fitted_noises(residuals: Sequence[RecordResidual]) -> tuple[NoiseModel, ...]:
-    """Every record's noise, its drift included; waves in the residuals are none of it."""
+    """Every record's noise, its drift included; waves and slips in the residuals are none of it."""
     whitened = without_sharp(residuals)
     noises, drift = whitened.noises, estimate_drift(whitened)
     of_effects = like_an_effect(drift)

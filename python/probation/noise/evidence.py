@@ -127,17 +127,17 @@ def _rough(segments: list[FloatArray], profiles: list[FloatArray], degree: int, 
 
 
 def _transient(powers: Sequence[FloatArray], rough: Sequence[float]) -> NDArray[np.bool_]:
-    """Which segments hold a transient of the model: from their powers, and from squares of large differences.
+    """Which segments hold a transient of the model: from their powers, and from squares of large second differences.
 
     A burst of noise has high frequencies, too, and many large differences. A transient has low ones; one with an edge
-    has both, and few large differences.
+    has both, few large differences, and is in one place.
     """
     low = [float(np.mean(power[: NOISE.low_coefficients])) for power in powers]
     high = [float(np.mean(power[NOISE.low_coefficients :])) for power in powers]
-    slow = _over_median(np.array(low) / np.maximum(high, 1e-300))
-    large = _over_median(np.array([float(np.mean(power)) for power in powers]))
-    burst = _over_median(np.array(rough)) > NOISE.transient_ratio
-    return (slow > NOISE.transient_ratio) | ((large > NOISE.transient_size) & ~burst)
+    slow = _over_median(np.array(low) / np.maximum(high, 1e-300)) > NOISE.transient_ratio
+    large = _over_median(np.array([float(np.mean(power)) for power in powers])) > NOISE.transient_size
+    edged = large & (_over_median(np.array(rough)) <= NOISE.transient_ratio)
+    return slow | edged if np.count_nonzero(edged & ~slow) <= NOISE.edged_segments else slow
 
 
 def _over_median(values: FloatArray) -> FloatArray:

@@ -94,7 +94,7 @@ class DetectionSettings:
     step_recoveries: tuple[float, ...] = chosen(
         (float("inf"), 0.08, 0.025),
         "record",
-        "Parts of a record in which the stress recovers from a step: not at all, slowly, or at once.",
+        "Parts of a record's samples in which the stress recovers from a step: it does not, does slowly, or soon.",
     )
     step_neighbours: tuple[int, ...] = chosen(
         (6, 14), "samples", "Samples on each side of a step by which the noise there is judged, closely and less so."
@@ -113,7 +113,7 @@ class DetectionSettings:
         "before its noise is estimated.",
     )
     most_taken_out: int = chosen(
-        4, "-", "So many steps and lines of a record, and so many strain periods, are taken out at most."
+        4, "-", "So many lines of a record, so many strain periods, and so many steps, are taken out at most."
     )
     noise_without_strain_period: float = chosen(
         0.5,

@@ -43,7 +43,9 @@ class EffectsSettings:
         0.1, "largest force", "Standard deviation of a gross hysteresis: a guide or a joint of the load train rubs."
     )
     large_prestress: float = chosen(
-        0.05, "largest force", "Standard deviation of a gross prestress: a stiff specimen that is clamped crookedly."
+        0.05,
+        "largest force",
+        "Standard deviation of a prestress in proportion to the force, of stiff specimens as of soft.",
     )
     large_back_stress: float = chosen(
         0.3, "largest force", "Standard deviation of a back stress that is a good part of the stress, as a metal's is."

@@ -88,13 +88,14 @@ class NoiseSettings:
     transient_size: float = chosen(
         8.0,
         "-",
-        "A segment that holds this many times as much as the median one holds a transient, too, unless its differences "
-        "from sample to sample are as large: a burst of noise.",
+        "A segment that holds this many times as much as the median one holds a transient with an edge, unless its "
+        "large second differences are `transient_ratio` times as large, squared: a burst of noise.",
     )
     edgeless: float = chosen(
-        0.9,
-        "samples",
-        "Part of a segment's differences that an edge does not reach; the largest of them tells a burst.",
+        0.9, "-", "Quantile of a segment's second differences that tells their size: an edge reaches fewer of them."
+    )
+    edged_segments: int = chosen(
+        2, "segments", "Segments of a record that are left out for an edge at most: where there are more, it is noise."
     )
     quiet_samples: int = chosen(80, "samples", "Quiet samples that suffice for an estimate of their own.")
     coarse_step: float = chosen(

@@ -115,7 +115,7 @@ EFFECT = Effect(
         Form(
             "growing",
             (
-                EffectParameter("log_area_loss_at_strain_1", "", 0.0, 20.0, 0.2, _REASON),
+                EffectParameter("log_area_loss_at_strain_1", "", 0.0, 5.0, 0.2, _REASON),
                 EffectParameter(
                     name="growth_exponent",
                     unit="",
