@@ -105,6 +105,7 @@ def test_a_gap_that_the_noise_hides_has_no_shares_and_every_effect_is_named(hidd
 
 
 def test_no_misfit_is_said_to_fall_that_grows(hidden, tmp_path):
+    assert "falls" not in hidden.headline
     before = hidden.shrink.identify.before_MPa
     identify = replace(hidden.shrink.identify, after_MPa=1.1 * before)
     found = replace(hidden, shrink=replace(hidden.shrink, identify=identify))

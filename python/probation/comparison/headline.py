@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from probation.diagnosis.headline import adds_little
 from probation.inference.unknown import UNKNOWN
-from probation.settings.evidence import EVIDENCE
-from probation.wording import chance, percent
+from probation.wording import chance
 
 if TYPE_CHECKING:
     from probation.comparison.result import ChangedParameter, ChangeExplanation
@@ -32,21 +32,21 @@ def headline(
     Parameters
     ----------
     parts : Attribution or None
-        Of the best explanation; None where it is told as it is.
+        Of the best explanation; None where all its effects are named.
     """
     if not best.effects:
         return f"Nothing changed since {reference} (probability {chance(best.probability)})."
-    told = best if parts is None else _told(best, parts)
-    where = "all records" if len(told.records) == count and count > 1 else ", ".join(told.records)
-    text = f"Since {reference}: {named(told)} in {where} (probability {chance(told.probability)})"
-    if told.parameters:
-        text += ": " + "; ".join(sized(parameter) for parameter in told.parameters[:3])
-    if len(told.effects) < len(best.effects):
-        text += f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
+    shown = best if parts is None else _with_named(best, parts)
+    where = "all records" if len(shown.records) == count and count > 1 else ", ".join(shown.records)
+    text = f"Since {reference}: {named(shown)} in {where} (probability {chance(shown.probability)})"
+    if shown.parameters:
+        text += ": " + "; ".join(sized(parameter) for parameter in shown.parameters[:3])
+    if len(shown.effects) < len(best.effects):
+        text += adds_little()
     return text + ("; it leaves more than noise." if left and UNKNOWN not in best.effects else ".")
 
 
-def _told(best: ChangeExplanation, parts: Attribution) -> ChangeExplanation:
+def _with_named(best: ChangeExplanation, parts: Attribution) -> ChangeExplanation:
     """Of the effects that are named, and of those that can stand in for one of them."""
     effects = tuple(name for name in best.effects if name in {*parts.named, *parts.undivided})
     if len(effects) == len(best.effects):

@@ -253,7 +253,7 @@ def _step_filters(
 
 
 def _step_filters_of(record: RecordResidual, noise: NoiseModel) -> _StepFilters | None:
-    """Without draws."""
+    """Of one record, without draws of the noise; None where it is too short."""
     count = len(record)
     if count < DETECTION.fewest_for_steps * DETECTION.slowest_line:
         return None

@@ -44,7 +44,8 @@ def explanations_of(weighed: Sequence[Weighed], checks: Mapping[tuple[str, ...],
 def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
     """What is known of the causes' parameters."""
     refit = hypothesis.refit
-    deviation = hypothesis.deviations
+    slopes = refit.coordinates.slopes(refit.parameters)
+    deviation = np.sqrt(np.maximum(np.diag(hypothesis.evidence.covariance), 0.0)) * slopes
     low, high = refit.at_bound
     result, at = [], refit.model.base_count
     everywhere = tuple(view.id for view in refit.model.views)

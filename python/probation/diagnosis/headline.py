@@ -42,6 +42,11 @@ def choices(sets: Sequence[Sequence[str]]) -> str:
     return listed(list(dict.fromkeys(names)), "or")
 
 
+def adds_little() -> str:
+    """Of the effects of an explanation that a headline leaves out."""
+    return f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
+
+
 def with_known(effects: Sequence[str], explanations: Sequence[Explanation]) -> Explanation:
     """The most probable explanation with these known effects, alone or jointly with an unknown one."""
     return next(each for each in explanations if {*each.effects} - {UNKNOWN} == {*effects})
@@ -204,9 +209,7 @@ def _explains(best: Explanation, parts: Attribution, named: str, fall: str, riva
     pronoun, verb = ("it", "explains") if len(parts.named) == 1 else ("them", "explain")
     sentence = f"{named} {verb} the gap: with {pronoun} {fall}"
     if not {*best.effects} <= {*parts.named, *parts.undivided}:
-        sentence += (
-            f"; what else is in the explanation adds less than {percent(EVIDENCE.share_worth_naming)} of the gap"
-        )
+        sentence += adds_little()
     return sentence + (rivals or f" (probability {chance(parts.probability)})")
 
 

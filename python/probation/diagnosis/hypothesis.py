@@ -7,12 +7,9 @@ from functools import cached_property
 from math import comb, log
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
-    from probation._arrays import FloatArray
     from probation.effects.cause import Cause
     from probation.inference.evidence import Evidence
     from probation.inference.refit import Refit
@@ -52,12 +49,6 @@ class Hypothesis:
                 log_evidence_unknown=self.evidence.log_evidence_unknown - max(lost - base.refit.not_reached, 0.0),
             ),
         )
-
-    @cached_property
-    def deviations(self) -> FloatArray:
-        """Standard errors of the parameters in their own units, shape (p,); the prior is part of them."""
-        slopes = self.refit.coordinates.slopes(self.refit.parameters)
-        return np.sqrt(np.maximum(np.diag(self.evidence.covariance), 0.0)) * slopes
 
     @property
     def causes(self) -> tuple[Cause, ...]:

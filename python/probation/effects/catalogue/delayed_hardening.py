@@ -104,7 +104,7 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
 def _starts_of_transition(
     views: Sequence[RecordView], residuals: Sequence[FloatArray] | None
 ) -> list[tuple[float, ...]]:
-    """Built about at a third and at two thirds of the largest true strain."""
+    """Built about at 35 and 65 % of the largest true strain."""
     largest = max(float(np.max(view.largest_strain)) for view in views)
     return [
         (float(np.clip(part * largest, _BUILT_AT.lower, _BUILT_AT.upper)), _SHARPNESS.centre) for part in (0.35, 0.65)
