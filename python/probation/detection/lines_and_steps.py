@@ -7,6 +7,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from probation.detection.tail import family_p_value, normal_tail, smallest_of_many, student_tail
 from probation.noise.smooth_basis import smooth_basis
@@ -341,8 +342,8 @@ def _steps(
 
 def _recovering(count: int, instants: NDArray[np.intp], recovery: float) -> FloatArray:
     """Unit steps at the instants, less by a factor of e after every such part of the record, shape (count, m)."""
-    since = np.arange(count)[:, None] - instants
-    return np.where(since >= 0, np.exp(-np.maximum(since, 0) / (recovery * count)), 0.0)
+    from_zero = np.append(np.zeros(count), np.exp(-np.arange(count) / (recovery * count)))
+    return np.ascontiguousarray(sliding_window_view(from_zero, count)[count - instants].T)
 
 
 def _power(time: FloatArray, values: FloatArray, frequency: FloatArray, duration: float) -> FloatArray:
