@@ -229,6 +229,6 @@ def _further_values(form: Form) -> list[tuple[float, ...]]:
             return []
         centre = parameter.to_search(parameter.centre)
         values = [parameter.from_search(centre + step * parameter.scale) for step in steps]
-        inside = dict.fromkeys(min(max(value, parameter.lower), parameter.upper) for value in values)
+        inside = dict.fromkeys(map(parameter.inside, values))
         grid = [(*point, value) for point in grid for value in inside]
     return grid if form.parameters[1:] else []

@@ -100,6 +100,10 @@ class EffectParameter:
         """The value of a search coordinate."""
         return float(np.exp(coordinate)) if self.log else float(coordinate)
 
+    def inside(self, value: float) -> float:
+        """A value, or the bound that it is beyond."""
+        return float(min(max(value, self.lower), self.upper))
+
     def step(self, value: float) -> float:
         """Step of a difference quotient around a value: small against the prior, large against rounding."""
         if self.log:

@@ -139,7 +139,7 @@ def _taken_up(form: Form, size: _Size) -> Form:
     pull = form.parameters[1]
     large = _of_travel(replace(form, starts=None), size.elongation)
     grid: list[tuple[float, ...]] = [
-        (travel * size.elongation, float(np.clip(part * size.force, pull.lower, pull.upper)))
+        (travel * size.elongation, pull.inside(part * size.force))
         for travel in EFFECTS.travel_starts
         for part in EFFECTS.take_up_starts
     ]

@@ -357,6 +357,11 @@ class RecordView:
 _FIELDS = tuple(each.name for each in fields(RecordView))
 
 
+def largest_strain_of(views: Sequence[RecordView]) -> float:
+    """Largest true strain of all records [-], not below 0."""
+    return max(float(np.max(view.largest_strain)) for view in views)
+
+
 def view_of(
     record: Record,
     excitation: Excitation,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.effects.record_view import largest_strain_of
 from probation.settings.effects import EFFECTS
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ def unloads(views: Sequence[RecordView]) -> bool:
 
     A stiff specimen unloads to nothing within a hundredth of the strain that it has come to.
     """
-    largest = max(float(np.max(view.largest_strain)) for view in views)
+    largest = largest_strain_of(views)
     return largest > 0.0 and any(
         float(np.max(view.largest_strain - view.true_strain)) > EFFECTS.least_return * largest or _sheds_force(view)
         for view in views

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.record_view import largest_strain_of
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
@@ -68,14 +69,8 @@ _GROWTH = EffectParameter(
 
 def _thresholds(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Thresholds at 10 to 70 % of the largest true strain, with a growth over 30 % of it."""
-    largest = max(float(np.max(view.largest_strain)) for view in views)
-    return [
-        (
-            float(np.clip(part * largest, _THRESHOLD.lower, _THRESHOLD.upper)),
-            float(np.clip(0.3 * largest, _GROWTH.lower, _GROWTH.upper)),
-        )
-        for part in (0.1, 0.3, 0.5, 0.7)
-    ]
+    largest = largest_strain_of(views)
+    return [(_THRESHOLD.inside(part * largest), _GROWTH.inside(0.3 * largest)) for part in (0.1, 0.3, 0.5, 0.7)]
 
 
 EFFECT = Effect(

@@ -8,6 +8,7 @@ import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.maxwell_element import maxwell_element, maxwell_element_in_strain
+from probation.effects.record_view import largest_strain_of
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.modification import Modification
 
@@ -97,18 +98,15 @@ def _built(view: RecordView, values: Values) -> Modification:
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Build-up times of 3 and 30 % of the longest record [s]."""
     longest = max(view.duration for view in views)
-    times = np.clip(np.array([0.03, 0.3]) * longest, _TIME.lower, _TIME.upper)
-    return [(float(time),) for time in times]
+    return [(_TIME.inside(part * longest),) for part in (0.03, 0.3)]
 
 
 def _starts_of_transition(
     views: Sequence[RecordView], residuals: Sequence[FloatArray] | None
 ) -> list[tuple[float, ...]]:
     """Built about at 35 and 65 % of the largest true strain."""
-    largest = max(float(np.max(view.largest_strain)) for view in views)
-    return [
-        (float(np.clip(part * largest, _BUILT_AT.lower, _BUILT_AT.upper)), _SHARPNESS.centre) for part in (0.35, 0.65)
-    ]
+    largest = largest_strain_of(views)
+    return [(_BUILT_AT.inside(part * largest), _SHARPNESS.centre) for part in (0.35, 0.65)]
 
 
 EFFECT = Effect(

@@ -59,7 +59,7 @@ def _durations(views: Sequence[RecordView], residuals: Sequence[FloatArray] | No
     """Time constants [s]: a tenth of the shortest record, half the median one, half the longest."""
     durations = [view.duration for view in views]
     times = [0.1 * min(durations), 0.5 * float(np.median(durations)), 0.5 * max(durations)]
-    return [(float(np.clip(time, _TIME.lower, _TIME.upper)), part) for time in times for part in _PART.starts]
+    return [(_TIME.inside(time), part) for time in times for part in _PART.starts]
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:

@@ -73,7 +73,7 @@ def _progressive(view: RecordView, values: Values) -> FloatArray:
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """A tenth, three and six tenths of the largest nominal stress [MPa]: more holds nearly all along the record."""
     largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
-    return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in (0.1, 0.3, 0.6)]
+    return [(_PULL.inside(part * largest),) for part in (0.1, 0.3, 0.6)]
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:

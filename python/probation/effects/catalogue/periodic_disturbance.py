@@ -152,7 +152,7 @@ def _turns(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) 
     periods = [_SCREW[0].centre]
     if residuals is not None:
         periods = likely_periods([np.expm1(view.sampled(view.recorded_strain)) for view in views], residuals)
-    inside = [float(np.clip(period, _SCREW[0].lower, _SCREW[0].upper)) for period in periods]
+    inside = [_SCREW[0].inside(period) for period in periods]
     return [(period, phase, _SECOND, 0.0) for period in inside for phase in (0.0, 0.5 * np.pi)]
 
 
@@ -163,17 +163,14 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
         frequencies = [cycles / longest for cycles in _CYCLES]
     else:
         frequencies = [peak for view, residual in zip(views, residuals, strict=True) for peak in _peaks(view, residual)]
-    inside = [float(np.clip(frequency, _FREQUENCY.lower, _FREQUENCY.upper)) for frequency in frequencies]
+    inside = [_FREQUENCY.inside(frequency) for frequency in frequencies]
     return [(frequency, phase) for frequency in inside for phase in (0.0, 0.5 * np.pi)]
 
 
 def _rings(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Those of a wave, which lasts as many periods as is usual."""
     longest = max(view.duration for view in views)
-    waves = [
-        (float(np.clip(frequency * longest, _PERIODS.lower, _PERIODS.upper)), phase)
-        for frequency, phase in _starts(views, residuals)
-    ]
+    waves = [(_PERIODS.inside(frequency * longest), phase) for frequency, phase in _starts(views, residuals)]
     return [(*wave, _LASTING.centre) for wave in waves]
 
 

@@ -186,7 +186,7 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     periods = [_PERIOD.centre]
     if residuals is not None:
         periods = likely_periods([view.sampled(view.largest_strain) for view in views], residuals)
-    inside = [float(np.clip(likely, _PERIOD.lower, _PERIOD.upper)) for likely in periods]
+    inside = [_PERIOD.inside(likely) for likely in periods]
     return [(likely, recovery, _ONSET, _GROWTH, 1.0) for likely in inside for recovery in _RECOVERIES]
 
 

@@ -60,8 +60,7 @@ def _springpot(view: RecordView, values: Values) -> Modification:
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Relaxation times of a tenth of the longest record and of all of it [s]."""
     longest = max(view.duration for view in views)
-    times = np.clip(np.array([0.1, 1.0]) * longest, _TIME.lower, _TIME.upper)
-    return [(float(time),) for time in times]
+    return [(_TIME.inside(part * longest),) for part in (0.1, 1.0)]
 
 
 EFFECT = Effect(

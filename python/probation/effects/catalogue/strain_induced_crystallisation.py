@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.record_view import largest_strain_of
 from probation.law.modification import Modification
 from probation.settings.effects import EFFECTS
 
@@ -60,13 +61,13 @@ def _carried(view: RecordView, values: Values) -> Modification:
 
 def _onsets(views: Sequence[RecordView]) -> list[float]:
     """Onsets at 35 and 65 % of the largest true strain: before and after the middle."""
-    largest = max(float(np.max(view.largest_strain)) for view in views)
-    return [float(np.clip(part * largest, _ONSET.lower, _ONSET.upper)) for part in (0.35, 0.65)]
+    largest = largest_strain_of(views)
+    return [_ONSET.inside(part * largest) for part in (0.35, 0.65)]
 
 
 def _starts_of_filler(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """It grows over as much strain as it began at."""
-    return [(onset, float(np.clip(onset, _GROWTH.lower, _GROWTH.upper))) for onset in _onsets(views)]
+    return [(onset, _GROWTH.inside(onset)) for onset in _onsets(views)]
 
 
 def _starts_of_carried(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -74,7 +75,7 @@ def _starts_of_carried(views: Sequence[RecordView], residuals: Sequence[FloatArr
 
 
 def _stretched(views: Sequence[RecordView]) -> bool:
-    return max(float(np.max(view.largest_strain)) for view in views) > EFFECTS.crystallising_strain
+    return largest_strain_of(views) > EFFECTS.crystallising_strain
 
 
 EFFECT = Effect(

@@ -84,13 +84,13 @@ def _seating(view: RecordView, values: Values) -> FloatArray:
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Parts of the largest nominal stress [MPa]: a strip is straight long before it yields."""
     largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
-    return [(float(np.clip(part * largest, _PULL.lower, _PULL.upper)),) for part in EFFECTS.take_up_starts]
+    return [(_PULL.inside(part * largest),) for part in EFFECTS.take_up_starts]
 
 
 def _durations(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Time constants [s]: a tenth of the shortest record, half the longest."""
     durations = [view.duration for view in views]
-    return [(float(np.clip(time, _TIME.lower, _TIME.upper)),) for time in (0.1 * min(durations), 0.5 * max(durations))]
+    return [(_TIME.inside(time),) for time in (0.1 * min(durations), 0.5 * max(durations))]
 
 
 EFFECT = Effect(
