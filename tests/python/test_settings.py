@@ -61,7 +61,7 @@ NUMERICAL = {
     "noise/white_level.py": {"LOG_LEVEL_TOLERANCE"},
     "noise/whitener.py": {"LEAST_SHARED"},
     "detection/gap_test.py": {"ABSORBED"},
-    "detection/lines_and_steps.py": {"KEPT"},
+    "detection/lines_and_steps.py": {"KEPT", "ROUNDING"},
     "detection/strain_periodic.py": {"FREQUENCIES_PER_SPACING", "GRID"},
     "detection/without_lines.py": {"PLACES"},
     "detection/tail.py": {"MANY", "_NODES", "_WEIGHTS"},

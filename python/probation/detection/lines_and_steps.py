@@ -22,6 +22,9 @@ if TYPE_CHECKING:
     from probation.noise.whitening import Whitened
 
 
+ROUNDING = 1e-10
+"""Variance [-] of a unit filter that is added to its own: filters of neighbouring instants are nearly one."""
+
 KEPT = 32
 """Bases of slow waves that are kept; a record has one for lines and one for steps."""
 
@@ -244,9 +247,9 @@ def _step_filters(
     for record, noise in zip(records, noises, strict=True):
         filters = _step_filters_of(record, noise)
         if filters is not None:
-            values, vectors = np.linalg.eigh(filters.steps.T @ filters.steps)
-            root = vectors * np.sqrt(np.maximum(values, 0.0))
-            drawn = np.max(np.abs(rng.standard_normal((size, len(values))) @ root.T), axis=1)
+            along = filters.steps.T @ filters.steps
+            root = np.linalg.cholesky(along + ROUNDING * np.eye(len(along)))
+            drawn = np.max(np.abs(rng.standard_normal((size, len(along))) @ root.T), axis=1)
             drawn *= np.exp(filters.spread * rng.standard_normal(size))
             filters = replace(filters, drawn=normal_tail(drawn, filters.spread))
         found.append(filters)
