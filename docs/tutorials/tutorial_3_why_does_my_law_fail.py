@@ -187,8 +187,8 @@ print(fewer.next_tests[0].what)
 for explanation in fewer.explanations[:3]:
     print(f"{explanation.probability:5.0%}  {' + '.join(explanation.effects)}")
 
-# >   50%  self_heating
-# >   30%  damage
+# >   53%  self_heating
+# >   26%  damage
 # >    6%  unknown
 
 # %%

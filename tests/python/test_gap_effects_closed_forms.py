@@ -124,6 +124,62 @@ def test_on_a_ramp_rate_dependent_hardening_is_another_modulus(form):
     np.testing.assert_allclose(found, other.stress(fast.time, fast.true_strain), rtol=1e-9, atol=1e-9)
 
 
+def test_hardening_that_follows_the_rate_from_a_rate_on_is_another_modulus_on_a_ramp():
+    """G ((1 + r / (b r_ref)) / (1 + 1 / b))^a; at a rate far below b r_ref nothing depends on it any more."""
+    fast, slow = ramp(2e-2), ramp(1e-3)
+    for record, others in ((fast, (slow,)), (slow, (fast,))):
+        found, views = predicted(LAW, record, "rate_dependent_hardening", "from_a_rate", (0.2, 0.5), others=others)
+        rate = record.true_strain[-1] / record.time[-1] / views[0].reference_rate
+        other = LAW.with_parameters([3000.0, 6.0, 2.0 * ((1.0 + rate / 0.5) / (1.0 + 1.0 / 0.5)) ** 0.2])
+        np.testing.assert_allclose(found, other.stress(record.time, record.true_strain), rtol=1e-9, atol=1e-9)
+    found, _ = predicted(LAW, slow, "rate_dependent_hardening", "from_a_rate", (0.2, 1e4), others=(fast,))
+    np.testing.assert_allclose(found, LAW.stress(slow.time, slow.true_strain), rtol=1e-4, atol=1e-4)
+
+
+def test_relaxation_that_follows_the_rate_from_a_rate_on_has_another_time_on_a_ramp():
+    """tau_max (1 + (1 / b)^a) / (1 + (r / (b r_ref))^a)."""
+    fast, slow = ramp(2e-2), ramp(1e-3)
+    found, views = predicted(LAW, fast, "rate_dependent_relaxation", "from_a_rate", (0.7, 3.0), others=(slow,))
+    rate = 2e-2 / views[0].reference_rate
+    other = LAW.with_parameters([3000.0, 6.0 * (1.0 + (1.0 / 3.0) ** 0.7) / (1.0 + (rate / 3.0) ** 0.7), 2.0])
+    np.testing.assert_allclose(found, other.stress(fast.time, fast.true_strain), rtol=1e-9, atol=1e-9)
+
+
+def test_a_network_built_from_a_rate_on_remembers_the_path():
+    """Relaxed: half the strain at 1e-2, half at 1e-3 gives the mean of ln((1 + r / (b r_ref)) / (1 + 1 / b))."""
+    time = np.concatenate([np.linspace(0, 50, 201), np.linspace(50, 550, 2001)[1:]])
+    strain = np.interp(time, [0, 50, 550], [0.0, 0.5, 1.0])
+    record = Record(id="jump", time=time, true_strain=strain, true_stress=0 * time, noise=Noise(0.04, 0.0))
+    found, views = predicted(QUICK, record, "rate_dependent_hardening", "path_from_a_rate", (0.1, 2.0))
+    parts = [(1.0 + rate / views[0].reference_rate / 2.0) / (1.0 + 1.0 / 2.0) for rate in (1e-2, 1e-3)]
+    expected = 2.0 * math.sqrt(parts[0] * parts[1]) ** 0.1 * (math.e**2 - 1.0 / math.e)
+    assert found[-1] == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_network_that_relaxes_fades_with_its_time():
+    """m e_HT in a Maxwell element of 50 s, by scipy, on top of the law."""
+    record = ramp(samples=2001)
+    found, _ = predicted(QUICK, record, "slow_process", "network", (3.0, 50.0))
+    rate = record.true_strain[-1] / record.time[-1]
+
+    def slope(t, stress):
+        return 3.0 * rate * (2.0 * math.exp(2.0 * rate * t) + math.exp(-rate * t)) - stress / 50.0
+
+    added = solve_ivp(slope, (0.0, record.time[-1]), [0.0], rtol=1e-9, atol=1e-9, t_eval=record.time).y[0]
+    np.testing.assert_allclose(
+        found - QUICK.stress(record.time, record.true_strain), added, atol=5e-3 * float(np.max(added))
+    )
+
+
+def test_a_network_built_in_time_is_there_in_the_end():
+    """Relaxed: G (1 - a e^(-(t/t_c)^n)) e_HT."""
+    record = ramp(1e-3, end=0.5)
+    found, _ = predicted(QUICK, record, "delayed_hardening", "in_time", (0.6, 200.0, 2.0))
+    t, e = record.time[-1], record.true_strain[-1]
+    expected = 2.0 * (1.0 - 0.6 * math.exp(-((t / 200.0) ** 2))) * (math.exp(2.0 * e) - math.exp(-e))
+    assert found[-1] == pytest.approx(expected, rel=5e-3)
+
+
 def test_a_network_remembers_the_path_and_not_the_dwell():
     """Relaxed: half the strain at 1e-2, half at 1e-3 gives the geometric mean of the rates; a dwell adds nothing."""
     time = np.concatenate([np.linspace(0, 50, 201), np.linspace(50, 550, 2001)[1:], np.linspace(550, 900, 401)[1:]])
@@ -301,6 +357,17 @@ def test_damage_is_the_area_lost_and_stays(form, values, left):
     ratio = found[1:] / LAW.stress(loop.time, loop.true_strain)[1:]
     assert ratio[199] == pytest.approx(left(0.5), rel=1e-9)
     np.testing.assert_allclose(ratio[-150:], left(1.0), rtol=1e-9)
+
+
+def test_damage_by_the_stress_grows_as_what_the_area_left_carries():
+    """30 MPa recorded all along: dD/de = a (1.5 / (1 - D))^n from 0.2 on, by scipy, at the largest strain so far."""
+    loss, exponent, threshold = 0.05, 3.0, 0.2
+    loop = replace(up_and_down(), true_stress=np.full(601, 30.0))
+    found, _ = predicted(LAW, loop, "damage", "by_stress", (loss, exponent, threshold))
+    ratio = found[1:] / LAW.stress(loop.time, loop.true_strain)[1:]
+    lost = solve_ivp(lambda _, d: loss * (1.5 / (1.0 - d)) ** exponent, (0.2, 1.0), [0.0], rtol=1e-9, t_eval=[0.5, 1.0])
+    assert ratio[199] == pytest.approx(1.0 - lost.y[0, 0], rel=1e-4)
+    np.testing.assert_allclose(ratio[-150:], 1.0 - lost.y[0, 1], rtol=1e-4)
 
 
 def test_flow_by_the_stress_that_the_network_does_not_carry_is_quicker_by_one_factor_where_that_is_constant():
@@ -688,6 +755,9 @@ def test_a_growing_volume_overstates_the_true_stress():
     np.testing.assert_allclose(found, 1000.0 * strain * np.exp(0.2 * strain), rtol=1e-12)
     found, _, strain = faulty("volume_change", "from_onset", (0.2, 0.3))
     np.testing.assert_allclose(found, 1000.0 * strain * np.exp(0.2 * np.maximum(strain - 0.3, 0.0)), rtol=1e-12)
+    found, _, strain = faulty("volume_change", "levelling_off", (0.2, 0.3, 0.1))
+    opened = 0.2 * (1.0 - np.exp(-np.maximum(strain - 0.3, 0.0) / 0.1))
+    np.testing.assert_allclose(found, 1000.0 * strain * np.exp(opened), rtol=1e-12)
 
 
 def test_a_measured_poisson_ratio_says_by_how_much_the_true_stress_is_overstated():

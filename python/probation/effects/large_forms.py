@@ -6,6 +6,7 @@ is all there is, a plain large fault is impossible and something else, or an unk
 that can be large has its forms a second time, with a prior as wide as the records are large. Networks of long chains
 lock at stretches of ten; one of short chains, or a drawn one, within some tenths of strain. Where 20 MPa activate the
 flow of a stiff polymer, a tenth of that may do so with a soft one. A metal's back stress is a good part of its stress.
+What a stress breaks is relative to the largest one.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from probation.effects.catalogue.machine_compliance import REFERENCE_STRESS as CONTACT_STRESS
 from probation.effects.catalogue.stress_activated_flow import REFERENCE_STRESS
 from probation.settings.effects import EFFECTS
 
@@ -99,7 +101,14 @@ def _drift(effect: Effect, size: _Size) -> tuple[Form, ...]:
 
 def _compliance(effect: Effect, size: _Size) -> tuple[Form, ...]:
     # The noise of the recorded force would become a strain of the specimen, which is stiffer than the frame by far.
-    return (_of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force),)
+    linear = _of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force)
+    contact = effect.form("contact")
+    powers, far = contact.parameters[1].starts, size.force / CONTACT_STRESS
+    grid: list[tuple[float, ...]] = [
+        (part * size.per_force * far ** (1.0 - power), power) for part in EFFECTS.travel_starts for power in powers
+    ]
+    whole = max(size.per_force * far ** (1.0 - power) for power in powers)
+    return linear, replace(_of_travel(contact, whole), starts=lambda _views, _residuals: grid)
 
 
 def crosshead_slack(view: RecordView, values: Values) -> FloatArray:
@@ -206,6 +215,12 @@ def _flow(effect: Effect, size: _Size) -> tuple[Form, ...]:
     )
 
 
+def _damage(effect: Effect, size: _Size) -> tuple[Form, ...]:
+    # The energy that is set free goes with the square of the stress.
+    softer = (REFERENCE_STRESS / max(size.force, 1e-300)) ** 2
+    return (_widened(effect.form("by_stress"), EFFECTS.large_damage * softer, 0.0, EFFECTS.largest_damage * softer),)
+
+
 def _back_stress(effect: Effect, size: _Size) -> tuple[Form, ...]:
     names = ("armstrong_frederick", "several_surfaces", "slip_element")
     scale = EFFECTS.large_back_stress * size.force
@@ -215,6 +230,7 @@ def _back_stress(effect: Effect, size: _Size) -> tuple[Form, ...]:
 _LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
     "back_stress": _back_stress,
     "cell_hysteresis": _hysteresis,
+    "damage": _damage,
     "force_gain": _gain,
     "force_offset": _offset,
     "force_drift": _drift,

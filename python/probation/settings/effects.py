@@ -50,6 +50,12 @@ class EffectsSettings:
     large_back_stress: float = chosen(
         0.3, "largest force", "Standard deviation of a back stress that is a good part of the stress, as a metal's is."
     )
+    large_damage: float = chosen(
+        0.2,
+        "area per strain",
+        "Standard deviation of what the largest force breaks, if damage goes with the square of the stress.",
+    )
+    largest_damage: float = chosen(3.0, "area per strain", "Most that it breaks.")
     large_lag: float = chosen(3.0, "s", "Standard deviation of a gross lag between force and strain.")
     lag_starts: tuple[float, ...] = chosen((0.5, 4.0), "s", "Such lags from which searches begin.")
     easy_flow: float = chosen(

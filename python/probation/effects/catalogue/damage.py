@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.effects.catalogue.stress_activated_flow import REFERENCE_STRESS
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.record_view import largest_strain_of
 from probation.law.modification import Modification
@@ -18,6 +20,9 @@ if TYPE_CHECKING:
 
 _NO_STRAIN = 1e-9
 """Strain over that of the middle [-] which stands for none: no area is lost there, and its power is finite."""
+
+_LEAST_AREA = 0.02
+"""Part of the area [-] that is left whatever was carried."""
 
 _REASON = "voids and broken lamellae take some tenths of the section before failure"
 
@@ -42,6 +47,20 @@ def _beyond_a_strain(view: RecordView, values: Values) -> Modification:
     """Area 1 - a (1 - e^(-(e - e_0) / w)) beyond a threshold e_0, e the largest strain so far (Mazars)."""
     beyond = np.maximum(view.largest_strain - values[1], 0.0)
     return Modification(load_bearing_area=1.0 + values[0] * np.expm1(-beyond / values[2]))
+
+
+def _by_stress(view: RecordView, values: Values) -> Modification:
+    """D' = a (|s| / (20 MPa (1 - D)))^n per strain beyond e_0 and the largest so far, s the recorded stress (Lemaitre).
+
+    s / (1 - D) is what the area left carries. The area is the root of order n + 1 of 1 - (n + 1) a w, w the integral of
+    (|s| / 20 MPa)^n.
+    """
+    loss, exponent, threshold = values
+    power = (np.abs(view.smooth_true_data) / REFERENCE_STRESS) ** exponent
+    further = np.diff(np.maximum(view.largest_strain, threshold))
+    done = np.append(0.0, np.cumsum(0.5 * (power[1:] + power[:-1]) * further))
+    left = np.maximum(1.0 - (exponent + 1.0) * loss * done, _LEAST_AREA ** (exponent + 1.0))
+    return Modification(load_bearing_area=left ** (1.0 / (exponent + 1.0)))
 
 
 _LOSS = EffectParameter("area_loss", "", 0.0, 0.95, 0.2, _REASON)
@@ -79,7 +98,7 @@ EFFECT = Effect(
     physics=(
         "Voids and breakage take load-bearing area for good, the more the further the specimen has been strained.\n"
         "Amplitude: -ln of the area left, at large strain, or at a strain of 1 (growing); the area lost (beyond "
-        "a strain)."
+        "a strain); that per strain under 20 MPa (by stress)."
     ),
     source=(
         "Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Mazars & Pijaudier-Cabot 1989, J. Eng. Mech. "
@@ -159,6 +178,27 @@ EFFECT = Effect(
             (_LOSS, _THRESHOLD, _GROWTH),
             modification=_beyond_a_strain,
             starts=_thresholds,
+            variant=True,
+        ),
+        Form(
+            "by_stress",
+            (
+                EffectParameter(
+                    "area_loss_per_strain_at_20MPa", "", 0.0, 1.0, 0.003, "a tenth of the area per strain under 115 MPa"
+                ),
+                EffectParameter(
+                    name="stress_exponent",
+                    unit="",
+                    lower=0.5,
+                    upper=10.0,
+                    centre=2.0,
+                    scale=0.5,
+                    log=True,
+                    reason="2: the energy that is set free (Lemaitre)",
+                ),
+                replace(_THRESHOLD, centre=0.05, upper=1.0),
+            ),
+            modification=_by_stress,
             variant=True,
         ),
     ),

@@ -22,7 +22,7 @@ _BUILT_AT = EffectParameter(
     name="fibril_strain",
     unit="",
     lower=0.02,
-    upper=2.0,
+    upper=1.0,
     centre=0.3,
     scale=0.7,
     log=True,
@@ -95,6 +95,18 @@ def _built(view: RecordView, values: Values) -> Modification:
     return Modification(hardening_factor=1.0 - values[0] * np.exp(-((view.largest_strain / values[1]) ** values[2])))
 
 
+def _in_time(view: RecordView, values: Values) -> Modification:
+    """The part a of G is built in the course of the test, as 1 - e^(-(t/t_c)^n): nuclei form and grow (Avrami)."""
+    return Modification(hardening_factor=1.0 - values[0] * np.exp(-((view.elapsed / values[1]) ** values[2])))
+
+
+def _starts_in_time(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Build-up times of 10 and 50 % of the shortest record and of 20 % of the longest [s]."""
+    durations = [view.duration for view in views]
+    times = 0.1 * min(durations), 0.5 * min(durations), 0.2 * max(durations)
+    return [(_TIME.inside(time), _SHARPNESS.centre) for time in times]
+
+
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Build-up times of 3 and 30 % of the longest record [s]."""
     longest = max(view.duration for view in views)
@@ -120,7 +132,8 @@ EFFECT = Effect(
     source=(
         "André et al., section 4 (G changes 'only in a delayed manner'); Farge et al. 2015; in strain: Armstrong & "
         "Frederick 1966 (reprinted 2007, Mater. High Temp. 24, 1); from spherulites to fibrils: Peterlin 1971, J. "
-        "Mater. Sci. 6, 490; Weibull 1951 (over a range of strains)"
+        "Mater. Sci. 6, 490; Weibull 1951 (over a range of strains); Avrami 1939, J. Chem. "
+        "Phys. 7, 1103 (in the course of time)"
     ),
     shows_in="fast records, dwells after large strains, unloading",
     kind="material",
@@ -160,6 +173,13 @@ EFFECT = Effect(
             ),
             modification=_built,
             starts=_starts_of_transition,
+            variant=True,
+        ),
+        Form(
+            "in_time",
+            (EffectParameter("late_part", "", 0.0, 1.0, 0.3, "some tenths of the network"), _TIME, _SHARPNESS),
+            modification=_in_time,
+            starts=_starts_in_time,
             variant=True,
         ),
     ),

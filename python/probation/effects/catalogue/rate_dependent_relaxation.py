@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.rate_onset import ONSET_RATE
 from probation.law.modification import Modification, RateShift
 
 if TYPE_CHECKING:
@@ -39,6 +42,13 @@ def _weissenberg(view: RecordView, values: Values) -> Modification:
     return Modification(rate_shift=RateShift(values[0], values[1], view.reference_rate))
 
 
+def _from_a_rate(view: RecordView, values: Values) -> Modification:
+    """tau_max (1 + (1 / b)^a) / (1 + (r / (b r_ref))^a): nothing changes far below the rate b r_ref (Cross)."""
+    exponent, onset = values[0], np.log(values[1])
+    above = np.logaddexp(0.0, exponent * (view.log_rate - onset)) - np.logaddexp(0.0, -exponent * onset)
+    return Modification(relaxation_time_factor=np.exp(-above))
+
+
 EFFECT = Effect(
     name="rate_dependent_relaxation",
     title="rate-dependent relaxation",
@@ -46,12 +56,13 @@ EFFECT = Effect(
         "All relaxation times shift with the strain rate: faster straining shortens them.\n"
         "Amplitude: -d ln tau_max / d ln rate at the reference rate, on top of the law's own companion relation."
     ),
-    source="André et al., eqs. (10)-(12)",
+    source="André et al., eqs. (10)-(12); Cross 1965, J. Colloid Sci. 20, 417 (from a rate on)",
     shows_in="records at different rates, or one whose rate changes (necking, jumps)",
     kind="material",
     coordinate="strain_rate",
     forms=(
         Form("power", (_EXPONENT,), modification=_power),
         Form("weissenberg", (_EXPONENT, _CURVATURE), modification=_weissenberg),
+        Form("from_a_rate", (_EXPONENT, ONSET_RATE), modification=_from_a_rate, variant=True),
     ),
 )

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.special import gamma
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.maxwell_element import maxwell_element
 from probation.law.modification import Modification
 
 if TYPE_CHECKING:
@@ -57,6 +58,15 @@ def _springpot(view: RecordView, values: Values) -> Modification:
     )
 
 
+def _network(view: RecordView, values: Values) -> Modification:
+    """A neo-Hookean network that relaxes: m times e_HT, of which every part fades with one time (Bergstrom and Boyce).
+
+    Their time shortens with the stress; here it is one number.
+    """
+    lagging = maxwell_element(view.time, view.haward_thackray_strain, values[1])
+    return Modification(added_relaxed_stress=values[0] * lagging)
+
+
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Relaxation times of a tenth of the longest record and of all of it [s]."""
     longest = max(view.duration for view in views)
@@ -69,11 +79,13 @@ EFFECT = Effect(
     physics=(
         "One more relaxation, slower than the spectrum or broader, and not shifted by the rate (crystals sliding, "
         "say).\n"
-        "Amplitude: modulus of that Maxwell element; of a power of the time, the modulus after 100 s."
+        "Amplitude: modulus of that Maxwell element; of a power of the time, the modulus after 100 s; of a "
+        "network that relaxes, its G."
     ),
     source=(
         "Na et al. 2007, J. Phys. Chem. B 111, 13206; Boyd 1985, Polymer 26, 1123; Scott Blair 1947 (power of the "
-        "time); Schiessel et al. 1995 (as elements)"
+        "time); Schiessel et al. 1995 (as elements); Bergstrom & Boyce 1998, J. Mech. Phys. Solids 46, 931 (a network "
+        "that relaxes)"
     ),
     shows_in="slow records and long dwells, against fast records",
     kind="material",
@@ -89,6 +101,16 @@ EFFECT = Effect(
             ),
             modification=_slow_mode,
             starts=_starts,
+        ),
+        Form(
+            "network",
+            (
+                EffectParameter("slow_network_MPa", "MPa", 0.0, 200.0, 2.0, "as much as the network that stays, G"),
+                _TIME,
+            ),
+            modification=_network,
+            starts=_starts,
+            variant=True,
         ),
         Form(
             "springpot",

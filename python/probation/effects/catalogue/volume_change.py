@@ -40,6 +40,12 @@ def _opening(view: RecordView, values: Values, stress: FloatArray) -> FloatArray
     return np.asarray(stress * np.exp(-values[0] * np.expm1(-((view.largest_strain / values[1]) ** 2))))
 
 
+def _levelling_off(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """Voids open from an onset on, ever fewer, and stay: the volume strain is a (1 - exp(-(e_m - e_0) / w))."""
+    beyond = np.maximum(view.largest_strain - values[1], 0.0)
+    return np.asarray(stress * np.exp(-values[0] * np.expm1(-beyond / values[2])))
+
+
 def _as_measured(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """The true stress overlooks the part a of the measured volume strain."""
     return stress if view.volume_strain is None else stress * np.exp(values[0] * view.volume_strain)
@@ -101,7 +107,7 @@ EFFECT = Effect(
                     name="opening_strain",
                     unit="",
                     lower=0.01,
-                    upper=2.0,
+                    upper=1.0,
                     centre=0.2,
                     scale=0.8,
                     log=True,
@@ -110,6 +116,36 @@ EFFECT = Effect(
                 ),
             ),
             recorded_stress=_opening,
+            placements=_EVERYWHERE,
+            needs=_not_all_measured,
+            variant=True,
+        ),
+        Form(
+            "levelling_off",
+            (
+                EffectParameter("volume_strain", "", 0.0, 1.0, 0.1, _REASON),
+                EffectParameter(
+                    name="onset_strain",
+                    unit="",
+                    lower=0.0,
+                    upper=1.5,
+                    centre=0.1,
+                    scale=0.2,
+                    starts=(0.05, 0.3),
+                    reason="cavitation begins at yield",
+                ),
+                EffectParameter(
+                    name="levelling_strain",
+                    unit="",
+                    lower=0.02,
+                    upper=3.0,
+                    centre=0.3,
+                    scale=0.8,
+                    log=True,
+                    reason="voids that are open grow no further once fibrils carry",
+                ),
+            ),
+            recorded_stress=_levelling_off,
             placements=_EVERYWHERE,
             needs=_not_all_measured,
             variant=True,
