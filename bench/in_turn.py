@@ -46,7 +46,9 @@ if TYPE_CHECKING:
 LEAST = 1e-4
 GAINS = (100.0, 1000.0)
 """Log evidence between strata."""
-START = OtherForms(fall=0.5, unknown_power=0.01, two=0.1, three=0.01, unknown=0.1, unknown_with_known=0.001)
+START = OtherForms(
+    fall_with_distance=0.5, unknown_power=0.01, two=0.1, three=0.01, unknown=0.1, unknown_with_known=0.001
+)
 HEAD = (
     "laboratory left out", "weights", "campaigns", *NAMED, "calibration error", "said", "right", "mean log score",
 )  # fmt: skip
@@ -237,7 +239,7 @@ def stratum_row(laboratory: str, name: str, own: Sequence[Judged], level: float)
 def said(trust: OtherForms) -> str:
     """Weights in one line."""
     return (
-        f"a {trust.fall:.2f}, b {trust.unknown_power:.2g}, two {trust.two:.2g}, three {trust.three:.2g}, "
+        f"a {trust.fall_with_distance:.2f}, b {trust.unknown_power:.2g}, two {trust.two:.2g}, three {trust.three:.2g}, "
         f"unknown {trust.unknown:.2g}, with known {trust.unknown_with_known:.2g}"
     )
 

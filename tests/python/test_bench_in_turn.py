@@ -129,7 +129,7 @@ def drawn(rng, gap, fall, count=300):
 def test_the_weights_that_made_the_truths_are_found(gap, fall):
     """300 gaps: the fall to its standard error, a tenth; odds that nothing was told of stay where they are."""
     found = found_on(drawn(np.random.default_rng(1), gap, fall))
-    assert found.fall == pytest.approx(fall, abs=0.1)
+    assert found.fall_with_distance == pytest.approx(fall, abs=0.1)
     assert found.two == pytest.approx(START.two, rel=1e-3)
 
 

@@ -37,7 +37,7 @@ def test_forms_are_others_where_nothing_was_calibrated():
     assert trust_in(CalibrationCheck(inside=True)) == Tempered(EVIDENCE.evidence_power)
     outside = trust_in(CalibrationCheck(inside=False, why=("another law",)))
     assert isinstance(outside, OtherForms)
-    assert outside.fall == CALIBRATED.fall_with_distance < 1.0
+    assert outside.fall_with_distance == CALIBRATED.fall_with_distance < 1.0
     assert outside.three < outside.two < 1.0
     assert outside.unknown_with_known < outside.two
 

@@ -203,7 +203,9 @@ def test_an_effect_in_several_records_each_time_in_its_own_size_must_earn_its_pl
     )
 
 
-OTHERS = OtherForms(fall=0.75, unknown_power=0.02, two=0.1, three=0.01, unknown=1.0, unknown_with_known=0.004)
+OTHERS = OtherForms(
+    fall_with_distance=0.75, unknown_power=0.02, two=0.1, three=0.01, unknown=1.0, unknown_with_known=0.004
+)
 
 
 def test_evidence_to_a_power_says_less():

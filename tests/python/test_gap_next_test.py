@@ -13,7 +13,7 @@ from probation.answers import json_answer
 from probation.design.next_test import next_test
 from probation.design.planned_record import planned_noise, planned_view, white_noise
 from probation.design.planned_tests import Laboratory, planned_tests
-from probation.design.predicted import RivalExplanation, RivalPrediction, outcome, predictions
+from probation.design.predicted import RivalExplanation, RivalPrediction, Weighing, outcome, predictions
 from probation.effects.cause import Cause, cause
 from probation.effects.effect import Effect, EffectParameter, Form
 from probation.effects.record_view import views_of
@@ -208,6 +208,26 @@ def test_a_test_that_says_nothing_leaves_the_chances_as_they_are():
     found = right([way(0, 1.0), way(1, 1.0)], [0.7, 0.3])
     assert found.probability == pytest.approx(0.7)
     assert found.information == pytest.approx(0.0, abs=1e-9)
+
+
+def test_one_more_record_tells_little_of_what_is_far_apart_already():
+    """900 log units, of which odds keep a power, are no other at 950: a repeat does not tell what forms may hide."""
+    ways, prior = [way(0, 0.0), way(1, 10.0)], np.array([0.7, 0.3])
+    in_full = outcome(ways, prior, [0, 1], draws=4000, seed=0)
+    assert in_full.probability > 0.999
+    weighing = Weighing(np.array([900.0, 0.0]), lambda distance: -0.9 * np.log1p(distance))
+    found = outcome(ways, prior, [0, 1], draws=4000, seed=0, weighing=weighing)
+    assert found.probability == pytest.approx(0.7, abs=0.02)
+
+
+def test_where_evidence_counts_to_a_power_two_points_are_as_near_as_through_more_noise():
+    """A power of 1/4 of two normal densities is that of twice the standard deviation."""
+    ways, prior = [way(0, 0.0), way(1, 3.0)], np.array([0.5, 0.5])
+    weighing = Weighing(np.zeros(2), lambda distance: -0.25 * distance)
+    found = outcome(ways, prior, [0, 1], draws=20_000, seed=0, weighing=weighing)
+    x = np.random.default_rng(1).standard_normal(200_000)
+    expected = np.mean(np.maximum(*(1.0 / (1.0 + np.exp(sign * 0.25 * (3.0 * x - 4.5))) for sign in (1.0, -1.0))))
+    assert found.probability == pytest.approx(expected, abs=0.005)
 
 
 def test_explanations_with_the_same_effects_are_one_answer():

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.design.planned_tests import Laboratory, planned_tests
-from probation.design.predicted import RivalExplanation, RivalPrediction, outcome, predictions
+from probation.design.predicted import RivalExplanation, RivalPrediction, Weighing, outcome, predictions
 from probation.errors import InputError
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
@@ -106,6 +106,7 @@ def next_test(
     explanations: Sequence[tuple[CampaignModel, FloatArray, float, tuple[str, ...]]],
     *,
     noises: Sequence[NoiseModel],
+    weighing: Weighing | None = None,
     threads: int = 1,
     seed: int = 0,
     progress: Callable[[float], None] | None = None,
@@ -126,6 +127,8 @@ def next_test(
         describes the records, or a test may be chosen that discriminates a form from the rest rather than the effect.
     noises : sequence of NoiseModel
         One per record.
+    weighing : Weighing, optional
+        How far evidence counts; all of it, if left out.
     threads : int
         Tests are worked out in parallel.
     progress : callable, optional
@@ -167,7 +170,9 @@ def next_test(
             ways = predictions(test, model, base, known, noises)
         except UNSOLVABLE:
             return None
-        return judged(test, ways, prior, group, [list(answer) for answer in answers], names, before, seed=seed)
+        return judged(
+            test, ways, prior, group, [list(answer) for answer in answers], names, before, seed=seed, weighing=weighing
+        )
 
     tests = planned_tests(Laboratory.of(model, base))
     worked = [judged_test for judged_test in in_parallel(work, tests, threads, progress) if judged_test is not None]
@@ -188,6 +193,7 @@ def judged(
     before: float,
     *,
     seed: int,
+    weighing: Weighing | None = None,
 ) -> RankedTest:
     """What to expect of a test.
 
@@ -201,9 +207,13 @@ def judged(
         What each group stands for, as it leaves the program and for people.
     before : float
         Probability of a right answer without the test.
+    weighing : Weighing, optional
+        As in `outcome`.
     """
-    expected = outcome(ways, prior, group, draws=DESIGN.draws, seed=seed)
-    rough = outcome([way.through(DESIGN.rough_noise) for way in ways], prior, group, draws=DESIGN.draws, seed=seed)
+    expected, rough = (
+        outcome(each, prior, group, draws=DESIGN.draws, seed=seed, weighing=weighing)
+        for each in (ways, [way.through(DESIGN.rough_noise) for way in ways])
+    )
     separated, surely = _separated(expected.pairwise)
     return RankedTest(
         test=test,

@@ -20,7 +20,9 @@ from probation.noise.whitener import Whitener
 from probation.settings.design import DESIGN
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
 
     from probation._arrays import FloatArray
     from probation.design.planned_tests import ProposedTest
@@ -185,6 +187,40 @@ def _on(
 
 
 @dataclass(frozen=True, eq=False)
+class Weighing:
+    """How far evidence counts: that of a test together with that of the records there are.
+
+    Where no form is quite nature's, an explanation that is far behind may be right all the same, and one more record
+    that puts it further behind tells little. A repeat of a record that two explanations describe alike tells nothing.
+
+    Attributes
+    ----------
+    log_evidence : ndarray, shape (n_explanations,)
+        By the records there are.
+    fall : callable
+        ``fall(distance)``: log odds of what is so far in log evidence behind the best one.
+    """
+
+    log_evidence: FloatArray
+    fall: Callable[[FloatArray], FloatArray]
+
+    @classmethod
+    def in_full(cls, count: int) -> Weighing:
+        """Of so many explanations, all of whose evidence counts: forms are nature's."""
+        return cls(np.zeros(count), np.negative)
+
+    def gained(self, log_density: FloatArray, owners: NDArray[np.intp]) -> FloatArray:
+        """Log odds that results give the ways, shape (n_draws, n_ways), of their log densities; `owners` of the ways.
+
+        An explanation is as probable as its own evidence says, whichever way it comes about.
+        """
+        before = self.log_evidence[owners]
+        after = before + log_density
+        distance = after.max(axis=1, keepdims=True) - after
+        return np.asarray(self.fall(distance) - self.fall(before.max() - before))
+
+
+@dataclass(frozen=True, eq=False)
 class Outcome:
     """How often a test would find the right one.
 
@@ -204,7 +240,13 @@ class Outcome:
 
 
 def outcome(
-    ways: Sequence[RivalPrediction], prior: FloatArray, group: Sequence[int], *, draws: int, seed: int
+    ways: Sequence[RivalPrediction],
+    prior: FloatArray,
+    group: Sequence[int],
+    *,
+    draws: int,
+    seed: int,
+    weighing: Weighing | None = None,
 ) -> Outcome:
     """Simulate the test under every explanation and weigh all by what comes out.
 
@@ -217,7 +259,10 @@ def outcome(
         Which answer each explanation is; several may be the same.
     draws : int
         Of each way.
+    weighing : Weighing, optional
+        All evidence counts, if left out.
     """
+    weighing = Weighing.in_full(len(prior)) if weighing is None else weighing
     owners = np.array([way.owner for way in ways])
     before = prior[owners] * np.array([way.weight for way in ways])
     groups = np.asarray(group)[owners]
@@ -231,7 +276,7 @@ def outcome(
     for share, own, mean, root in zip(before, groups, means, roots, strict=True):
         results = mean + noise @ root.T
         logs = [_log_density(results, m, inverse) for m, inverse in zip(means, inverses, strict=True)]
-        densities = np.stack(logs, axis=1)
+        densities = weighing.gained(np.stack(logs, axis=1), owners)
         joint = (np.exp(densities - densities.max(axis=1, keepdims=True)) * before) @ member
         posterior = joint / joint.sum(axis=1, keepdims=True)
         probability += share * float(np.mean(posterior.max(axis=1)))

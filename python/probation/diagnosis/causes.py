@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.probabilities import Weighed
     from probation.diagnosis.result import Checks, RecordCurves, Shrink, Verdict
     from probation.diagnosis.skipped import Skipped, Skipping
+    from probation.diagnosis.trust import Trust
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.calibration_check import CalibrationCheck
@@ -61,6 +62,8 @@ class Causes:
     checks : dict of tuple of str to Checks
         Of the explanations of the answer set.
     verdict : {"explained", "no_gap", "unexplained"}
+    trust : Trust
+        How far evidence counts.
     cut : CutShort or None
         How far the search came, if the budget ended it.
     """
@@ -71,6 +74,7 @@ class Causes:
     weighed: list[Weighed]
     checks: Mapping[tuple[str, ...], Checks]
     verdict: Verdict
+    trust: Trust
     cut: CutShort | None = None
 
     @property
@@ -152,22 +156,23 @@ def causes_of(
     considered = tuple(considered)
     if not gap:
         hypotheses = linear_hypotheses(base, base.columns, skipping)
-        trust = Tempered(EVIDENCE.evidence_power)  # no form describes anything here
-        weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), trust), p_value)
-        return Causes(base, considered, hypotheses, weighed, {}, "no_gap")
+        tempered = Tempered(EVIDENCE.evidence_power)  # no form describes anything here
+        weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), tempered), p_value)
+        return Causes(base, considered, hypotheses, weighed, {}, "no_gap", tempered)
     considered = with_large_forms(considered, base.model.views)
     base, hypotheses, cut = _searched(base, considered, threads, skipping, budget, progress)
     hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)
 
-    weighed = probabilities_of(hypotheses, effect_count(considered), trust_in(calibration))
+    trust = trust_in(calibration)
+    weighed = probabilities_of(hypotheses, effect_count(considered), trust)
     weighed = none_behind(account.ranked(given_a_gap(weighed, p_value)))
     left, checked = _judged(leading(weighed), base, account, seed)
     best = weighed[0]
     more = (
         UNKNOWN in best.effects or left or account.worse(best.hypothesis) or _another_acts(best.hypothesis, base, seed)
     )
-    return Causes(base, considered, hypotheses, weighed, checked, "unexplained" if more else "explained", cut)
+    return Causes(base, considered, hypotheses, weighed, checked, "unexplained" if more else "explained", trust, cut)
 
 
 def _searched(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.design.isolability import isolability
+from probation.design.next_test import helps
 from probation.detection.place_left_out import place_left_out
 from probation.detection.where import locate
 from probation.diagnosis.attribution import attribution
@@ -329,6 +330,7 @@ def _designed(
                 causes.weighed,
                 chosen,
                 causes.found,
+                causes.trust,
                 threads=threads,
                 seed=seed,
                 progress=lambda part: done(0.75 + 0.1 * part, "choosing the next test"),
@@ -338,6 +340,8 @@ def _designed(
         if left is not None and (causes.verdict == "unexplained" or not of_causes):
             of_rest = skipping.tried("the next test", lambda: remainder_tests(base, left, threads=threads, seed=seed))
         following = one_after_the_other(of_rest or (), of_causes or ())
+        if causes.verdict == "no_gap":  # nothing is to be told apart, but where that helps
+            following = tuple(each for each in following if helps(each.probability_after, each.probability_before))
     apart = skipping.tried(
         "what these tests can discriminate",
         lambda: isolability(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.design.next_test import helps, next_test
+from probation.design.predicted import Weighing
 from probation.diagnosis.result import NextTest
 from probation.inference.unknown import UNKNOWN
 from probation.settings.design import DESIGN
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from probation.design.next_test import RankedTest
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
+    from probation.diagnosis.trust import Trust
     from probation.inference.base_fit import BaseFit
 
 
@@ -30,6 +32,7 @@ def next_test_of(
     weighed: Sequence[Weighed],
     answer_set: Sequence[tuple[str, ...]],
     hypotheses: Sequence[Hypothesis],
+    trust: Trust,
     *,
     threads: int,
     seed: int,
@@ -45,6 +48,8 @@ def next_test_of(
     answer_set : sequence of tuple of str
     hypotheses : sequence of Hypothesis
         All forms and places that were refitted.
+    trust : Trust
+        How far the evidence of records counts, those to come as those that there are.
     threads, seed : int
     progress : callable, optional
         Called with the fraction done, 0 to 1.
@@ -56,7 +61,7 @@ def next_test_of(
     ][: DESIGN.planned_explanations]
     if len(open_still) < 2:
         return ()
-    entries = []
+    entries, log_evidence, least = [], [], DESIGN.least_form_weight
     for explanation in open_still:
         best = explanation.hypothesis.evidence.log_evidence
         close = [
@@ -66,13 +71,20 @@ def next_test_of(
         ]
         close = sorted(close, key=lambda other: -other.evidence.log_evidence)[: DESIGN.forms]
         weight = np.exp([other.evidence.log_evidence - best for other in close])
+        kept = [(each, part) for each, part in zip(close, weight / weight.sum(), strict=True) if part > least]
         entries += [
-            (other.refit.model, other.refit.parameters, float(explanation.probability * part), explanation.effects)
-            for other, part in zip(close, weight / weight.sum(), strict=True)
-            if part > DESIGN.least_form_weight
+            (each.refit.model, each.refit.parameters, float(explanation.probability * part), explanation.effects)
+            for each, part in kept
         ]
+        log_evidence += [each.evidence.log_evidence for each, _ in kept]
     recommendation = next_test(
-        base.model, entries, noises=base.whitened.noises, threads=threads, seed=seed, progress=progress
+        base.model,
+        entries,
+        noises=base.whitened.noises,
+        weighing=Weighing(np.array(log_evidence), trust.fall),
+        threads=threads,
+        seed=seed,
+        progress=progress,
     )
     return () if recommendation is None else as_answer(recommendation.ranking, recommendation.probability_before)
 

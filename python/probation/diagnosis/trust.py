@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import comb, log, log1p
+from math import comb, log
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -41,6 +41,9 @@ class Trust(Protocol):
             Of the catalogue.
         """
 
+    def fall(self, distance: FloatArray) -> FloatArray:
+        """Log odds of a known effect that is so far in log evidence behind the best one."""
+
 
 @dataclass(frozen=True)
 class Tempered:
@@ -62,6 +65,10 @@ class Tempered:
             [self.power * own + log_prior(names, count) + log_odds[names] for names, own in log_evidence.items()]
         )
 
+    def fall(self, distance: FloatArray) -> FloatArray:
+        """As in `Trust`."""
+        return -self.power * distance
+
 
 @dataclass(frozen=True)
 class OtherForms:
@@ -69,11 +76,12 @@ class OtherForms:
 
     So odds fall with a power of the distance D in log evidence from the best explanation, o (1 + D)^-a. An unknown
     effect has no form that could be wrong: with it they fall as o exp(-b D). The odds o are those over a single known
-    effect as near to the best one; what is rare elsewhere may not be so in a laboratory that nobody knows.
+    effect as near to the best one; what is rare elsewhere may not be so in a laboratory that nobody knows. Known
+    effects with no more evidence than none explain nothing: they have no probability.
 
     Attributes
     ----------
-    fall : float
+    fall_with_distance : float
         The power a.
     unknown_power : float
         The power b to which evidence counts where an unknown effect acts.
@@ -87,7 +95,7 @@ class OtherForms:
         gap is declared, the test leaves it next to nothing.
     """
 
-    fall: float
+    fall_with_distance: float
     unknown_power: float
     two: float
     three: float
@@ -99,8 +107,11 @@ class OtherForms:
         self, log_evidence: Mapping[Effects, float], log_odds: Mapping[Effects, float], count: int
     ) -> FloatArray:
         """As in `Trust`; `log_odds` and `count` have no say."""
-        best = max(log_evidence.values())
-        weights = {names: self._log_weight(names, best - own) for names, own in log_evidence.items()}
+        best, none = max(log_evidence.values()), log_evidence.get((), -np.inf)
+        weights = {
+            names: -np.inf if own <= none and names and UNKNOWN not in names else self._log_weight(names, best - own)
+            for names, own in log_evidence.items()
+        }
         known = max((own for names, own in log_evidence.items() if names and UNKNOWN not in names), default=-np.inf)
         if self.most_unknown < 1.0 and known - log_evidence.get(ALONE, np.inf) >= CALIBRATED.plain_lead:
             others = logsumexp([own for names, own in weights.items() if names and names != ALONE])
@@ -108,13 +119,17 @@ class OtherForms:
             weights[ALONE] = min(weights[ALONE], others + log(most / (1.0 - most)))
         return np.array(list(weights.values()))
 
+    def fall(self, distance: FloatArray) -> FloatArray:
+        """As in `Trust`."""
+        return np.asarray(-self.fall_with_distance * np.log1p(distance))
+
     def _log_weight(self, names: Effects, distance: float) -> float:
         """Of an explanation; "none" has the odds of a single effect."""
         if UNKNOWN in names:
             odds = self.unknown if len(names) == 1 else self.unknown_with_known
             return log(odds) - self.unknown_power * distance
         odds = (1.0, 1.0, self.two, self.three)[min(len(names), 3)]
-        return log(odds) - self.fall * log1p(distance)
+        return log(odds) + float(self.fall(np.asarray(distance)))
 
 
 def trust_in(calibration: CalibrationCheck) -> Trust:
@@ -122,7 +137,7 @@ def trust_in(calibration: CalibrationCheck) -> Trust:
     if calibration.inside:
         return Tempered(EVIDENCE.evidence_power)
     return OtherForms(
-        fall=CALIBRATED.fall_with_distance,
+        fall_with_distance=CALIBRATED.fall_with_distance,
         unknown_power=CALIBRATED.unknown_power_outside,
         two=CALIBRATED.odds_of_two,
         three=CALIBRATED.odds_of_three,
