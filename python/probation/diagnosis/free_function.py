@@ -258,10 +258,18 @@ class FreeFunctions:
         return all(sum(bool(mask[part].any()) for part in self._slices) > 1 for mask in member)
 
     def curve(self, term: Term) -> RemainderCurve:
-        """For a figure."""
-        count = self._tangent.shape[1]
+        """For a figure.
+
+        Where parameters, refitted without the function, follow most of it, only the rest is known, and shown.
+        """
+        count, columns, weight = self._tangent.shape[1], self._columns(term), self._weight
         solved = self._fitted_jointly(term)
-        followed = self._tangent @ solved[:count]
+        followed, shown = self._tangent @ solved[:count], solved[count:]
+        whole = columns @ shown
+        taken = self._followed(whole)
+        if np.linalg.norm(weight * (whole - taken)) < REMAINDER.least_of_its_own * np.linalg.norm(weight * whole):
+            followed += taken
+            shown = np.asarray(np.linalg.lstsq(weight[:, None] * columns, weight * (whole - taken), rcond=1e-10)[0])
         least = SMALLEST_STRESS * float(np.max(np.abs(self._stress)))
         size = np.copysign(np.maximum(np.abs(self._stress), least), self._stress) / 100.0
         scale = size if term.acts == "factor" else np.ones(len(self._missing))
@@ -270,7 +278,7 @@ class FreeFunctions:
         grid = np.unique(x[inside])
         if not term.variable.is_category:
             grid = np.linspace(float(grid[0]), float(grid[-1]), POINTS)
-        function = _basis(grid, x[inside], term) @ solved[count:]
+        function = _basis(grid, x[inside], term) @ shown
         return RemainderCurve(
             label=term.variable.label,
             unit="%" if term.acts == "factor" else "MPa",
@@ -320,6 +328,12 @@ class FreeFunctions:
         return _solved(
             together.T @ together, together.T @ (self._weight * self._missing), self._precision, smooth=smooth
         )
+
+    def _followed(self, values: FloatArray) -> FloatArray:
+        """What refitted parameters alone follow of a change of the prediction, shape (N,) [MPa]."""
+        tangent = self._weight[:, None] * self._tangent
+        along = tangent.T @ (self._weight * values)
+        return np.asarray(self._tangent @ _solved(tangent.T @ tangent, along, self._precision, smooth=False))
 
     def _square_left_out(self, term: Term | None, folds: Sequence[NDArray[np.int_]]) -> float:
         """Mean square of every fold as the others predict it, with a function or without [MPa^2]."""

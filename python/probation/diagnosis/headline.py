@@ -173,11 +173,14 @@ def _cause(
         return _nothing_near(explanations, answer_set, shrink, record_count, nothing, worse)
     if verdict == "unexplained" and cut:
         return f"{nothing}; with {titles(parts.named)}{place} {fall}"
-    named, rivals = f"{_with_shares(parts)}{place}", _rivals(parts.named, answer_set)
+    named, rivals = f"{_with_shares(parts)}{place}", _rivals_of(parts.named, answer_set)
     fall += _not_divided(parts, identify)
     if verdict == "unexplained":
-        return _is_part(best, parts, named, fall, rivals, identify.noise_MPa)
-    return f"{'of what was tried, ' if cut else ''}{_explains(best, parts, named, fall, rivals)}"
+        return _is_part(best, parts, named, fall, _indistinct(parts.named, rivals), identify.noise_MPa)
+    behind = [each.effects for each in explanations if each.effects in rivals and _leaves_more(each)]
+    near = [effects for effects in rivals if effects not in behind]
+    others = _indistinct(parts.named, near) + _of_other_forms(behind)
+    return f"{'of what was tried, ' if cut else ''}{_explains(best, parts, named, fall, others, alone=not near)}"
 
 
 def _nothing_near(
@@ -204,13 +207,13 @@ def _place(records: Sequence[str], count: int) -> str:
     return f" in {listed(list(records), 'and')}" if 0 < len(records) < count else ""
 
 
-def _explains(best: Explanation, parts: Attribution, named: str, fall: str, rivals: str) -> str:
-    """Of an explanation that leaves nothing."""
+def _explains(best: Explanation, parts: Attribution, named: str, fall: str, rivals: str, *, alone: bool) -> str:
+    """Of an explanation that leaves nothing, `alone` if no other one does."""
     pronoun, verb = ("it", "explains") if len(parts.named) == 1 else ("them", "explain")
     sentence = f"{named} {verb} the gap: with {pronoun} {fall}"
     if not {*best.effects} <= {*parts.named, *parts.undivided}:
         sentence += adds_little()
-    return sentence + (rivals or f" (probability {chance(parts.probability)})")
+    return f"{sentence} (probability {chance(parts.probability)}){rivals}" if alone else sentence + rivals
 
 
 def _is_part(best: Explanation, parts: Attribution, named: str, fall: str, rivals: str, noise_MPa: float) -> str:
@@ -228,9 +231,26 @@ def _is_part(best: Explanation, parts: Attribution, named: str, fall: str, rival
     return f"{named} {verb} part of it ({fall}), but {left}: {other}{rivals}"
 
 
-def _rivals(known: Sequence[str], answer_set: Sequence[tuple[str, ...]]) -> str:
-    """What may act in place of the named effects, as a further clause; empty where nothing may."""
-    rivals = [effects for effects in answer_set if not {*known} <= {*effects}]
+def _rivals_of(known: Sequence[str], answer_set: Sequence[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """What may act in place of the named effects."""
+    return [effects for effects in answer_set if not {*known} <= {*effects}]
+
+
+def _leaves_more(each: Explanation) -> bool:
+    """Whether it leaves what the test for a gap sees."""
+    return each.checks is not None and each.checks.remaining_p_value < DETECTION.gap_level
+
+
+def _of_other_forms(behind: Sequence[tuple[str, ...]]) -> str:
+    """What is not excluded though it leaves a gap, as a further clause; empty where there is none."""
+    if not behind:
+        return ""
+    shown = choices(behind[:MOST_RIVALS])
+    return f"; not excluded, though more than noise would be left: {shown}{_more(behind)}"
+
+
+def _indistinct(known: Sequence[str], rivals: Sequence[tuple[str, ...]]) -> str:
+    """From what the tests cannot distinguish the named effects, as a further clause; empty where from nothing."""
     if not rivals:
         return ""
     pronoun = "it" if len(known) == 1 else "them"
@@ -310,6 +330,8 @@ def _not_divided(parts: Attribution, identify: Closure) -> str:
     weighed = ", as the noise weighs it" if alone > whole + EVIDENCE.share_worth_naming else ""
     closes, stand_ins = f"; {title(first)} alone closes {percent(alone)} of the gap{weighed}", titles(parts.undivided)
     if {*parts.undivided} <= {*parts.named}:  # none of them is enough
+        if alone > whole - EVIDENCE.share_worth_naming:
+            return closes
         others = titles([name for name in parts.named if name != first])
         return f"{closes}, the rest only jointly with {others}, so that {stand_ins} have no shares of their own"
     return f"{closes}, and the data cannot divide it between {stand_ins}"

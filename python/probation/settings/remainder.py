@@ -43,6 +43,12 @@ class RemainderSettings:
     doubt: float = chosen(
         0.05, "remainder", "Added to the part that each function leaves, in the odds between variables."
     )
+    least_of_its_own: float = chosen(
+        0.3,
+        "function",
+        "Part of a function, by its root mean square, that refitted parameters must leave: else only what they leave "
+        "is shown.",
+    )
     not_discriminated: float = chosen(
         0.05,
         "remainder",
