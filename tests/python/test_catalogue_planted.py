@@ -71,14 +71,14 @@ def diagnosed(planted):
     return probation.diagnose(planted, design=False)
 
 
-def named(planted, name):
+def named(planted, name, least=0.65):
     """The diagnosis, in which this effect must close nearly all of the gap alone: forms that are not the catalogue's
     leave a little, of which other effects may take their part. Outside what was calibrated evidence counts for less.
     """
     found = diagnosed(planted)
     first = found.effects[0]
     assert (first.name, first.named) == (name, True), found.headline
-    assert first.probability > 0.55
+    assert first.probability > least
     assert first.alone > 0.9
     return found
 
@@ -452,8 +452,8 @@ def strip(law, time, strain):
     return np.array(stress)
 
 
-@pytest.mark.parametrize(("time_s", "exponent"), [(1.0, 0.5), (2.0, 0.6), (1.0, 0.35)])
-def test_a_stretched_exponential_in_place_of_the_spectrum(time_s, exponent):
+@pytest.mark.parametrize(("time_s", "exponent", "most"), [(1.0, 0.5, 1.15), (2.0, 0.6, 1.15), (1.0, 0.35, 1.25)])
+def test_a_stretched_exponential_in_place_of_the_spectrum(time_s, exponent, most):
     """All of E_u relaxes as exp(-(t / t_0)^b): at a constant rate the stress is its integral. Begun from a small part
     of the modulus, the search ended at one and a half times the noise, where a slow process leaves less.
     """
@@ -467,7 +467,7 @@ def test_a_stretched_exponential_in_place_of_the_spectrum(time_s, exponent):
         made.append(record(f"at-{rate:g}", time, strain, stress, seed))
     found = diagnosed(campaign(made))
     assert found.best.effects == ("spectrum_shape",), found.headline
-    assert found.shrink.identify.after_MPa < 1.25 * 0.04
+    assert found.shrink.identify.after_MPa < most * 0.04
 
 
 def test_a_strip_that_goes_slack():
@@ -905,7 +905,7 @@ def test_a_measured_rise_drives_self_heating():
 
 def test_a_rise_that_is_small_beside_the_scatter_of_its_readings_drives_self_heating():
     """Half a degree, read to 0.15: seen by its many readings, and no reading's error is a warming."""
-    found = named(measured_warming(softening=0.1, hottest=0.5, scatter=0.15), "self_heating")
+    found = named(measured_warming(softening=0.1, hottest=0.5, scatter=0.15), "self_heating", least=0.55)
     assert found.best.forms == ("as_measured",)
     assert value(found, "softening_per_degC") == pytest.approx(0.1, rel=0.3)
 

@@ -208,6 +208,16 @@ OTHERS = OtherForms(
 )
 
 
+def test_effects_with_no_more_evidence_than_none_have_no_probability_where_forms_are_others():
+    """A heating of size 0 has less evidence than none, and a power of its distance would leave it some per cent."""
+    log_evidence = {(): 0.0, ("a",): -22.0, ("b",): 8345.0, ("unknown",): -30.0}
+    weights = dict(
+        zip(log_evidence, OTHERS.log_weights(log_evidence, dict.fromkeys(log_evidence, 0.0), 30), strict=True)
+    )
+    assert weights["a",] == -np.inf
+    assert np.isfinite([weights[names] for names in ((), ("b",), ("unknown",))]).all()
+
+
 def test_evidence_to_a_power_says_less():
     """Ten log units to the power of 0.4 are four."""
     found = [hypothesis(), alone(NAMES[0], log_evidence=10.0), alone(NAMES[1])]

@@ -340,7 +340,7 @@ def _designed(
         if left is not None and (causes.verdict == "unexplained" or not of_causes):
             of_rest = skipping.tried("the next test", lambda: remainder_tests(base, left, threads=threads, seed=seed))
         following = one_after_the_other(of_rest or (), of_causes or ())
-        if causes.verdict == "no_gap":  # nothing is to be told apart, but where that helps
+        if causes.verdict == "no_gap":  # there is nothing to discriminate, unless a test helps
             following = tuple(each for each in following if helps(each.probability_after, each.probability_before))
     apart = skipping.tried(
         "what these tests can discriminate",

@@ -103,7 +103,7 @@ def _compliance(effect: Effect, size: _Size) -> tuple[Form, ...]:
     # The noise of the recorded force would become a strain of the specimen, which is stiffer than the frame by far.
     linear = _of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force)
     contact = effect.form("contact")
-    powers, far = contact.parameters[1].starts, size.force / CONTACT_STRESS
+    powers, far = contact.parameters[1].starts, max(size.force, 1e-300) / CONTACT_STRESS
     grid: list[tuple[float, ...]] = [
         (part * size.per_force * far ** (1.0 - power), power) for part in EFFECTS.travel_starts for power in powers
     ]
