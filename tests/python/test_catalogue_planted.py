@@ -735,6 +735,9 @@ def test_zeros_of_the_force_in_more_records_than_an_explanation_has_effects():
     found = named(campaign(made), "force_offset")
     assert len(found.best.records) == 5
     assert found.shrink.identify.after_MPa < 1.2 * 0.04
+    told = found.to_dict()["causes"][0]["parameters"].values()
+    values = {each["records"][0]: each["value"] for each in told}
+    assert [values[each.id] for each in made] == pytest.approx(zeros, abs=0.02)
 
 
 @pytest.mark.parametrize("faulty", [(1,), (0, 1, 2)], ids=["in one test", "in every test"])

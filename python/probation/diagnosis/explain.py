@@ -25,7 +25,7 @@ def explanations_of(weighed: Sequence[Weighed], checks: Mapping[tuple[str, ...],
     """Entries of the answer, in the order of `weighed`, with the checks of those that were checked."""
     entries = []
     for explanation in weighed:
-        causes = explanation.hypothesis.causes
+        causes = sorted(explanation.hypothesis.causes, key=lambda cause: cause.effect.name)
         entries.append(
             Explanation(
                 effects=explanation.effects,
@@ -42,7 +42,7 @@ def explanations_of(weighed: Sequence[Weighed], checks: Mapping[tuple[str, ...],
 
 
 def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
-    """What is known of the causes' parameters."""
+    """What is known of the causes' parameters, in the order of their effects' names."""
     refit = hypothesis.refit
     slopes = refit.coordinates.slopes(refit.parameters)
     deviation = np.sqrt(np.maximum(np.diag(hypothesis.evidence.covariance), 0.0)) * slopes
@@ -65,7 +65,7 @@ def cause_parameters(hypothesis: Hypothesis) -> tuple[CauseParameter, ...]:
                 )
             )
             at += 1
-    return tuple(result)
+    return tuple(sorted(result, key=lambda parameter: parameter.effect))
 
 
 def base_parameters(base: BaseFit) -> tuple[BaseParameter, ...]:

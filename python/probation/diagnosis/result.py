@@ -113,11 +113,12 @@ class Explanation:
     titles : tuple of str
         The same for people.
     forms : tuple of str
-        Functional form of each.
+        Functional form of each, as often as it acts, in the order of `parameters`.
     records : tuple of str
         Ids of the records that it touches.
     probability : float
     parameters : tuple of CauseParameter
+        In the order of `effects`.
     checks : Checks or None
         For the leading ones.
     log_evidence : float or None
@@ -508,14 +509,17 @@ def _located(region: Located) -> dict[str, Any]:
 
 
 def _explanation(explanation: Explanation) -> dict[str, Any]:
-    parameters = {}
+    parameters: dict[str, dict[str, Any]] = {}
     for parameter in explanation.parameters:
-        name = parameter.name if parameter.name not in parameters else f"{parameter.effect}.{parameter.name}"
+        longer = f"{parameter.effect}.{parameter.name}"
+        names = (parameter.name, longer, f"{longer}.{'+'.join(parameter.records)}")
+        name = next((each for each in names if each not in parameters), names[-1])
         parameters[name] = {
             "value": parameter.value,
             "se": parameter.se,
             "unit": parameter.unit,
             "bound": parameter.bound,
+            "records": list(parameter.records),
         }
     checks = explanation.checks
     return {

@@ -262,6 +262,24 @@ class Search:
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
             self.found += self._judged(self._begun_jointly(_of_one_cause(begun)))
+        self._forms_of_the_leader()
+
+    def _forms_of_the_leader(self) -> None:
+        """The leading single effect in its forms of the same amplitude, from where its best form ended.
+
+        From the base fit, far from there, a form may end beside its optimum.
+        """
+        for leading in self.ranked(1, acting_once=True)[:1]:
+            base, ((cause, values),) = leading.refit.model.split(leading.refit.parameters)
+            views = [view for view in self.base.model.views if cause.touches(view.id)]
+            jobs: list[Job] = []
+            for form in cause.effect.forms:
+                if form.amplitude is not cause.form.amplitude or form.threshold:
+                    continue
+                model = self.base.model.with_causes([Cause(cause.effect, form, cause.records)])
+                starts = form.nonlinear_starts(views)[: SEARCH.starts]
+                jobs += [(model, model.parameters(base, (values[0], *start))) for start in starts]
+            self.found += self._judged(self._solved(jobs, MOST_STEPS))
 
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
         """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both.

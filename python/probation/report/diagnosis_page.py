@@ -295,10 +295,10 @@ def _details(diagnosis: Diagnosis) -> Section:
     )
     records = [curves.id for curves in diagnosis.curves.values()]
     held_out = [curves.id for curves in diagnosis.curves.values() if curves.role != "identify"]
-    forms = [
-        f"{name_of((effect,))}: {form}"
-        for effect, form in zip(diagnosis.best.effects, diagnosis.best.forms, strict=False)
-    ]
+    best = diagnosis.best
+    acting = dict.fromkeys((each.effect, each.records) for each in best.parameters)
+    named = (f"{name_of((effect,))}: {form}" for (effect, _), form in zip(acting, best.forms, strict=False))
+    forms = list(dict.fromkeys(named))
     lines = [
         f"Base law: {diagnosis.law}. Scheme {diagnosis.scheme}.",
         f"Records: {', '.join(records)}." + (f" Held out: {', '.join(held_out)}." if held_out else ""),
