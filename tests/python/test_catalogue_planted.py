@@ -408,6 +408,31 @@ def test_a_characteristic_that_bends():
     assert value(found, "gain_bend") == pytest.approx(-0.035, rel=0.1)
 
 
+@pytest.mark.parametrize("excess", [0.08, -0.06])
+def test_a_wrong_gauge_length_in_one_test(excess):
+    """What the specimen saw is the recorded elongation over 1 + a; its force is over the section of the recording."""
+    made = []
+    for index, rate in enumerate((SLOW, 3e-3, 5e-3, FAST)):
+        time, seen = path(rate, [0.6])
+        strain = np.log1p((1.0 + excess) * np.expm1(seen)) if index == 1 else seen
+        made.append(record(f"at-{rate:g}", time, strain, LAW.stress(time, seen) * np.exp(strain - seen), index))
+    found = named(campaign(made), "strain_gain")
+    assert found.best.records == ("at-0.003",)
+    assert value(found, "strain_gain_error") == pytest.approx(excess, rel=0.03)
+
+
+def test_arms_of_an_extensometer_that_swing():
+    """The gain falls with the square of the opening, by 5 % at the largest one, in one of four tests."""
+    made = []
+    for index, rate in enumerate((SLOW, 3e-3, 5e-3, FAST)):
+        time, seen = path(rate, [0.6])
+        opening = np.expm1(seen)
+        strain = np.log1p(opening * (1.0 - 0.05 * (opening / opening[-1]) ** 2)) if index == 2 else seen
+        made.append(record(f"at-{rate:g}", time, strain, LAW.stress(time, seen) * np.exp(strain - seen), index))
+    found = named(campaign(made), "strain_gain")
+    assert (found.best.records, found.best.forms) == (("at-0.005",), ("bending",))
+
+
 def test_voids_that_open_around_a_strain_and_stay():
     """The section grows by 6 % as tanh around a strain of 0.3, and does not shrink on the way back."""
 

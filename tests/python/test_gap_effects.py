@@ -49,6 +49,7 @@ NAMES_IN_THE_CONTRACT = [
     "force_gain",
     "force_strain_lag",
     "strain_offset",
+    "strain_gain",
     "machine_compliance",
     "volume_change",
     "prestress",

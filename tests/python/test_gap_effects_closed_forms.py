@@ -536,6 +536,21 @@ def test_a_wrong_section_is_a_factor():
     np.testing.assert_allclose(found, 970.0 * strain, rtol=1e-12)
 
 
+def test_a_wrong_gauge_length_is_a_factor_of_the_elongation():
+    """1.04 times the elongation was recorded; the true stress was made of the force and the recorded strain."""
+    found, _, strain = faulty("strain_gain", "factor", (0.04,))
+    seen = np.log1p(np.expm1(strain) / 1.04)
+    np.testing.assert_allclose(found, 1000.0 * seen * np.exp(strain - seen), rtol=1e-10, atol=1e-10)
+
+
+def test_a_characteristic_of_an_extensometer_bends():
+    """By its square: 2 % at half of the largest elongation, 4 % at all of it."""
+    found, _, strain = faulty("strain_gain", "bending", (0.04, 1.0))
+    elongation = np.expm1(strain)
+    seen = np.log1p(elongation / (1.0 + 0.04 * elongation / elongation[-1]))
+    np.testing.assert_allclose(found, 1000.0 * seen * np.exp(strain - seen), rtol=1e-10, atol=1e-10)
+
+
 @settings(max_examples=40, deadline=None)
 @given(st.floats(-5.0, 5.0), st.integers(0, 1000))
 def test_a_straight_signal_is_delayed_by_rate_times_delay(delay, seed):

@@ -20,6 +20,7 @@ NAMES = (
     "force_gain",
     "force_strain_lag",
     "strain_offset",
+    "strain_gain",
     "machine_compliance",
     "volume_change",
     "prestress",

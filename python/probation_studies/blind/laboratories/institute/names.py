@@ -30,6 +30,7 @@ NAMES = {
     "friction in the cell": "cell_hysteresis",
     "hum": "periodic_disturbance",
     "zero of the strain": "strain_offset",
+    "wrong gauge length": "strain_gain",
     "stiffness of the frame": "machine_compliance",
     "slip": "grip_slip",
 }

@@ -18,6 +18,7 @@ CATALOGUE = {
     "slack": "strain_offset",
     "bending": "strain_offset",
     "cell_gain": "force_gain",
+    "extensometer_scale": "strain_gain",
     "cell_zero": "force_offset",
     "cell_thermal_drift": "force_drift",
     "amplifier_lag": "force_strain_lag",

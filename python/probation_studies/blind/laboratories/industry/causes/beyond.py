@@ -64,17 +64,6 @@ def _neck_spreading(test: BenchTest, a: float, shape: Shape) -> None:
     test.reading.append(read)
 
 
-def _extensometer_class(test: BenchTest, a: float, shape: Shape) -> None:
-    """ISO 9513, relative error of an extensometer: (1 + a) e."""
-    test.reading.append(lambda travel, force: travel * (1.0 + a))
-
-
-def _effective_gauge(test: BenchTest, a: float, shape: Shape) -> None:
-    """ASTM D638, effective gauge length of a dumb-bell: the fillets strain, too, less than the shank: e + a e^m."""
-    whole = np.expm1(test.scales.strain)
-    test.reading.append(lambda travel, force: travel + a * whole * np.maximum(travel / whole, 0.0) ** shape["m"])
-
-
 def _ageing_in_holds(test: BenchTest, a: float, shape: Shape) -> None:
     """Struik 1978 under load: at rest the material ages, tau grows by (1 + t/t_0)^a; flow undoes it."""
     age = _rest(test)
@@ -170,21 +159,6 @@ BEYOND = (
                 _neck_spreading,
                 0.3,
                 {"onset": (0.05, 0.3), "spread": (0.1, 0.4)},
-                crosshead=True,
-            ),
-        ),
-        rig=True,
-    ),
-    Cause(
-        "extensometer_scale",
-        (
-            Form("ISO 9513", _extensometer_class, 0.3, {}, signed=True),
-            Form(
-                "effective gauge length, ASTM D638",
-                _effective_gauge,
-                0.3,
-                {"m": (1.1, 2.0)},
-                signed=True,
                 crosshead=True,
             ),
         ),

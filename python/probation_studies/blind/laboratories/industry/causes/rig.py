@@ -83,6 +83,17 @@ def _seating(test: BenchTest, a: float, shape: Shape) -> None:
     )
 
 
+def _extensometer_class(test: BenchTest, a: float, shape: Shape) -> None:
+    """ISO 9513, relative error of an extensometer: (1 + a) e."""
+    test.reading.append(lambda travel, force: travel * (1.0 + a))
+
+
+def _effective_gauge(test: BenchTest, a: float, shape: Shape) -> None:
+    """ASTM D638, effective gauge length of a dumb-bell: the fillets strain, too, less than the shank: e + a e^m."""
+    whole = np.expm1(test.scales.strain)
+    test.reading.append(lambda travel, force: travel + a * whole * np.maximum(travel / whole, 0.0) ** shape["m"])
+
+
 def _gain(test: BenchTest, a: float, shape: Shape) -> None:
     """ISO 7500-1, relative error of indication: F (1 + a)."""
     test.force.append(lambda force: force * (1.0 + a))
@@ -286,6 +297,21 @@ RIG = (
         (
             Form("loose load train", _slack, 0.05, {}, crosshead=True),
             Form("seating, ASTM D638", _seating, 0.05, {"force": (0.02, 0.2)}, crosshead=True),
+        ),
+        rig=True,
+    ),
+    Cause(
+        "extensometer_scale",
+        (
+            Form("ISO 9513", _extensometer_class, 0.3, {}, signed=True),
+            Form(
+                "effective gauge length, ASTM D638",
+                _effective_gauge,
+                0.3,
+                {"m": (1.1, 2.0)},
+                signed=True,
+                crosshead=True,
+            ),
         ),
         rig=True,
     ),

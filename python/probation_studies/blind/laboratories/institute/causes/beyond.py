@@ -18,17 +18,6 @@ if TYPE_CHECKING:
     from probation_studies.blind.laboratories.institute.series import Test
 
 
-def _wrong_gauge(test: Test, a: float, shape: Shape) -> Change:
-    """The gauge length is not what was typed in (ISO 9513)."""
-    return of_strain(lambda strain, force: np.log1p((1.0 + a) * np.expm1(strain)) - strain)
-
-
-def _arms(test: Test, a: float, shape: Shape) -> Change:
-    """Arms of the extensometer swing on an arc: the gain changes with the opening."""
-    most = np.expm1(test.setting.reach)
-    return of_strain(lambda strain, force: np.log1p(np.expm1(strain) * (1.0 + a * np.expm1(strain) / most)) - strain)
-
-
 def _beside(test: Test, stress: FloatArray) -> Change:
     return Change(stress=lambda own: own + stress[::2])
 
@@ -109,10 +98,6 @@ def _camera_warms(test: Test, a: float, shape: Shape) -> Change:
 
 
 BEYOND = (
-    Cause(
-        "wrong gauge length", 0.02, 0.4, (Form("wrong length", _wrong_gauge), Form("arms on an arc", _arms)),
-        rig=True, signed=True,
-    ),
     Cause(
         "second process of flow", 0.05, 0.8,
         (Form("Bauwens-Crowet 1973", _bauwens, {"turn": (0.01, 0.3)}), Form("Voigt 1892", _voigt)),

@@ -31,6 +31,17 @@ def _taken_up(test: Test, a: float, shape: Shape) -> Change:
     return of_strain(lambda strain, force: -a * np.expm1(-np.maximum(force, 0.0) / load))
 
 
+def _wrong_gauge(test: Test, a: float, shape: Shape) -> Change:
+    """The gauge length is not what was typed in (ISO 9513)."""
+    return of_strain(lambda strain, force: np.log1p((1.0 + a) * np.expm1(strain)) - strain)
+
+
+def _arms(test: Test, a: float, shape: Shape) -> Change:
+    """Arms of the extensometer swing on an arc: the gain changes with the opening."""
+    most = np.expm1(test.setting.reach)
+    return of_strain(lambda strain, force: np.log1p(np.expm1(strain) * (1.0 + a * np.expm1(strain) / most)) - strain)
+
+
 def _spring(test: Test, a: float, shape: Shape) -> Change:
     """Travel that was corrected with a wrong stiffness of the frame; `a` is the strain at the flow stress."""
     return of_strain(lambda strain, force: a * force / test.setting.flow_stress)
@@ -83,6 +94,10 @@ STRAIN = (
     Cause(
         "zero of the strain", 1e-3, 0.08,
         (Form("missed zero", _missed_zero), Form("slack taken up", _taken_up, {"load": (0.02, 0.2)})),
+        rig=True, signed=True,
+    ),
+    Cause(
+        "wrong gauge length", 0.02, 0.4, (Form("wrong length", _wrong_gauge), Form("arms on an arc", _arms)),
         rig=True, signed=True,
     ),
     Cause(
