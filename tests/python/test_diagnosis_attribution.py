@@ -482,7 +482,12 @@ def test_where_an_unknown_leads_alone_it_is_told_how_far_known_effects_come(unex
 def test_without_a_gap_the_headline_tells_what_that_hangs_on(left, hangs, told):
     scatter = SimpleNamespace(source="replicates" if hangs else "stated", text="they may")
     gap = SimpleNamespace(
-        held_out={}, hangs_on_scatter=hangs, scatter=scatter, test=SimpleNamespace(p_value=0.2), held_out_p_value=1.0
+        held_out={},
+        hangs_on_scatter=hangs,
+        scatter=scatter,
+        test=SimpleNamespace(p_value=0.2),
+        held_out_p_value=1.0,
+        trend=None,
     )
     closure = Closure(left, left, 0.04, None, None, "")
     shrink = SimpleNamespace(identify=closure, records={"a": None, "b": None}, held_out=None, effects=())

@@ -248,6 +248,7 @@ def diagnose(
         skipped=causes.skipped(skipping),
         scatter=base.scatter,
         gap_if_alike=gap.if_alike,
+        trend=gap.trend,
         calibration=calibration,
         leaves_a_gap=verdict == "unexplained",
     )

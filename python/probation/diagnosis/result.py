@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.closure import Closure
     from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.skipped import Skipped
+    from probation.inference.deviation_trend import DeviationTrend
     from probation.inference.gap import GapSize, HeldOutGap
     from probation.inference.parameter import Status
     from probation.inference.scatter import Scatter
@@ -282,6 +283,8 @@ class Diagnosis(Result, Stored):
         How far specimens differ: estimated, assumed or stated.
     gap_if_alike : bool
         Whether there would be a gap if specimens were alike, by the test for a gap alone.
+    trend : DeviationTrend or None
+        Where that is all that speaks against a gap: what of the specimens' deviations is in an order.
     tolerance : float
         Part of the largest stress below which a gap does not matter.
     matters : bool
@@ -361,6 +364,7 @@ class Diagnosis(Result, Stored):
     judged_on: str | None = None
     scatter: Scatter | None = None
     gap_if_alike: bool = False
+    trend: DeviationTrend | None = None
     tolerance: float = DETECTION.tolerance
     matters: bool = True
     calibration: CalibrationCheck = field(default_factory=lambda: CalibrationCheck(inside=True))
@@ -464,6 +468,7 @@ class Diagnosis(Result, Stored):
             "judged_on": self.judged_on,
             "scatter": {} if self.scatter is None else self.scatter.to_dict(),
             "gap_if_alike": self.gap_if_alike,
+            "trend": None if self.trend is None else asdict(self.trend),
             "where": [_located(region) for region in self.located],
             "acts": [_located(region) for region in self.acts],
             "signatures": [

@@ -355,6 +355,7 @@ class Fit(Result, Stored):
             quality = "the law describes the records to within their noise"
             if self.gap.hangs_on_scatter:
                 quality += f" and their specimens' differences ({self.gap.scatter.text})"
+                quality += "" if self.gap.trend is None else f"; but {self.gap.trend.text}"
         elif self.bias_MPa > CERTIFICATE.bias_over_noise * self.noise_MPa:
             quality = f"{bias}, {self.bias_MPa / self.noise_MPa:.0f} times the noise"
         elif self.bias_MPa > self.noise_MPa:

@@ -8,6 +8,7 @@ import numpy as np
 
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
+from probation.inference.parameter import SYMBOLS, outside_name
 from probation.inference.wrapped_law import WrappedLaw
 
 if TYPE_CHECKING:
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
 
 AREA, START = "area", "strain_offset"
 """What else differs from specimen to specimen: the section, and the strain at which the specimen is first loaded."""
+
+TITLES = {outside_name(name): symbol for name, symbol in SYMBOLS.items()}
+TITLES |= {AREA: "the section", START: "the start of the strain"}
+"""Deviations for people."""
 
 _KNOWN = {
     "unrelaxed_modulus_MPa": "unrelaxed_modulus",

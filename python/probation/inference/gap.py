@@ -5,7 +5,7 @@ One test for `fit`, `certify` and `diagnose` (docs/diagnosis-method.md, sections
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from probation.detection.sharp_gap import with_sharp
 from probation.errors import InputError
 from probation.inference.calibration_check import check_calibration
 from probation.inference.candidate import WhitenedColumns, for_a_test
+from probation.inference.deviation_trend import deviation_trend
 from probation.inference.model import CampaignModel
 from probation.inference.prediction import jointly, predictions
 from probation.inference.screen import screen
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from probation.effects.effect import Effect
     from probation.inference.base_fit import BaseFit
     from probation.inference.calibration_check import CalibrationCheck
+    from probation.inference.deviation_trend import DeviationTrend
     from probation.inference.scatter import Scatter
     from probation.inference.screen import Column
     from probation.noise.model import NoiseModel
@@ -123,6 +125,8 @@ class Gap:
         How far specimens may differ without a gap.
     alike : GapTest or None
         Of the fitted records if specimens were alike, where they may differ.
+    trend : DeviationTrend or None
+        What of the specimens' deviations is in an order, where there would be a gap if they were alike.
     """
 
     test: GapTest
@@ -130,6 +134,7 @@ class Gap:
     sizes: Mapping[str, GapSize]
     scatter: Scatter
     alike: GapTest | None = None
+    trend: DeviationTrend | None = None
 
     @property
     def hangs_on_scatter(self) -> bool:
@@ -197,6 +202,7 @@ class Gap:
             "size": self.size.to_dict(),
             "scatter": self.scatter.to_dict(),
             "if_alike": self.if_alike,
+            "trend": None if self.trend is None else asdict(self.trend),
             "held_out_gap": {name: gap.to_dict() for name, gap in self.held_out.items()},
         }
 
@@ -254,7 +260,8 @@ def find_gap(
             *_, other = judged(*again)
             found = max(found, other, key=lambda test: test.p_value / test.level)
         held_out[record.name] = HeldOutGap(_rms(error), _rms(noise.deviation), found.p_value, found.level)
-    return Gap(test, held_out, sizes, base.scatter, alike)
+    gap = Gap(test, held_out, sizes, base.scatter, alike)
+    return replace(gap, trend=deviation_trend(base)) if gap.hangs_on_scatter else gap
 
 
 def _of_prediction(

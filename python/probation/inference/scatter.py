@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from probation.inference.deviations import AREA, START, deviation_names, kind_of_deviation
-from probation.inference.parameter import SYMBOLS, outside_name
+from probation.inference.deviations import START, TITLES, deviation_names, kind_of_deviation
 from probation.noise.outliers import without_outliers
 from probation.records.specimens import DEVIATIONS
 from probation.results.data import LEFT_OUT
@@ -38,8 +37,7 @@ FIRST_STEP, ACCEPTED, ADAPTED = 0.7, 0.44, 0.2
 """Metropolis: the first step of a logarithm, the acceptance that steps are adapted to (Roberts & Rosenthal 2001), and
 by how much each time."""
 
-_TITLES = {outside_name(name): symbol for name, symbol in SYMBOLS.items()}
-_TITLES |= {AREA: "the section", START: "the start of the strain"}
+NOT_SEEN = "replicates do not show that specimens differ"
 
 Source = Literal["replicates", "assumed", "stated", "none"]
 
@@ -89,14 +87,14 @@ class Scatter:
         if not self.any:
             return "specimens are taken as alike"
         parts = [
-            f"{size:.2g} in {_TITLES[name]}" if name == START else f"{percentage(size)} % in {_TITLES.get(name, name)}"
+            f"{size:.2g} in {TITLES[name]}" if name == START else f"{percentage(size)} % in {TITLES.get(name, name)}"
             for index, (name, size) in enumerate(zip(self.names, self.deviations, strict=True))
             if size > 0.0 and (self.intervals is None or self.intervals[index][0] > NOISE.scatter_seen * size)
         ]
         if self.source == "assumed":
             return f"without replicates it is assumed that specimens differ by {listed(parts, 'and')}"
         if not parts:
-            return "replicates do not show that specimens differ"
+            return NOT_SEEN
         return f"specimens {'are said to ' if self.source == 'stated' else ''}differ by {listed(parts, 'and')}"
 
     @property

@@ -30,7 +30,7 @@ def own_deviations(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
         With the specimens' scatter.
     """
     parts = [np.zeros(len(residual)) for residual in residuals]
-    for members, size in _sizes(residuals, noises):
+    for members, size in deviations_of(residuals, noises):
         shortened = min(1.0, _usual(size) / max(float(np.linalg.norm(size)), 1e-300)) * size
         for index in members:
             columns = noises[index].specimen
@@ -59,7 +59,7 @@ def specimens_within(residuals: Sequence[FloatArray], noises: Sequence[NoiseMode
 
 def _lengths(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> Iterator[float]:
     """How far each specimen deviates, over what is usual."""
-    return (float(np.linalg.norm(size)) / _usual(size) for _, size in _sizes(residuals, noises))
+    return (float(np.linalg.norm(size)) / _usual(size) for _, size in deviations_of(residuals, noises))
 
 
 def _usual(size: FloatArray) -> float:
@@ -67,8 +67,18 @@ def _usual(size: FloatArray) -> float:
     return float(np.sqrt(chdtri(len(size), NOISE.unusual_specimen)))
 
 
-def _sizes(residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]) -> Iterator[tuple[list[int], FloatArray]]:
-    """Records of each specimen, and its most probable deviations over their standard deviations, shape (k,)."""
+def deviations_of(
+    residuals: Sequence[FloatArray], noises: Sequence[NoiseModel]
+) -> Iterator[tuple[list[int], FloatArray]]:
+    """Records of each specimen, and its most probable deviations over their standard deviations, shape (k,).
+
+    Parameters
+    ----------
+    residuals : sequence of ndarray, shape (n_r,) [MPa]
+        Without outliers.
+    noises : sequence of NoiseModel
+        With the specimens' scatter.
+    """
     for members in specimens_of(noises):
         normal, pull = np.zeros(()), np.zeros(())
         for index in members:

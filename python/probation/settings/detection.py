@@ -29,6 +29,14 @@ class DetectionSettings:
         "Gap, over the noise, below which it is declared only if it is significant with other models of the noise, "
         "too.",
     )
+    trend_level: float = chosen(
+        0.02,
+        "-",
+        "A trend of the specimens' deviations is told below this p-value: it changes no verdict, and looks for a "
+        "missing cause where scatter hides it.",
+    )
+    least_specimens: int = chosen(5, "specimens", "Fewer have too few orders for such a p-value.")
+    most_orders: int = chosen(5040, "orders", "Orders of specimens that are compared: all of seven.")
     tolerance: float = chosen(
         0.001,
         "largest stress",
