@@ -163,9 +163,9 @@ for where, closure in (
 truth = {"heating": 0.05, "cooling_rate": 0.004, "softening": 0.1, "hardening_loss": 0.004}
 for parameter, (name, true) in zip(diagnosis.best.parameters, truth.items(), strict=True):
     error = "not determined" if parameter.se is None else f"± {parameter.se:.2g}"
-    print(f"{name:15} {parameter.value:.3g} {error}, put in: {true:g}")
-# > heating         0.0478 ± 0.022, put in: 0.05
-# > softening       0.104 not determined, put in: 0.1
+    print(f"{name:15} {parameter.value:.2g} {error}, put in: {true:g}")
+# > heating         0.048 ± 0.022, put in: 0.05
+# > softening       0.1 not determined, put in: 0.1
 
 
 # %%
