@@ -292,8 +292,9 @@ def _reduced(ways: Sequence[RivalPrediction]) -> tuple[FloatArray, list[FloatArr
     """Means (n_ways, m) and Cholesky factors (m, m) in the few coordinates in which the predictions differ."""
     centre = np.mean([way.mean for way in ways], axis=0)
     columns = np.column_stack([*(way.mean - centre for way in ways), *(way.spread for way in ways)])
-    size = np.linalg.norm(columns, axis=0)
-    frame = np.linalg.qr(columns[:, size > 0.0] / size[size > 0.0])[0] if size.any() else np.zeros((len(columns), 1))
+    left, size, _ = np.linalg.svd(columns[:, np.any(columns != 0.0, axis=0)], full_matrices=False)
+    seen = size > DESIGN.seen_in_noise
+    frame = left[:, seen] if seen.any() else np.zeros((len(columns), 1))
     means: FloatArray = np.array([frame.T @ (way.mean - centre) for way in ways])
     roots: list[FloatArray] = []
     for way in ways:

@@ -64,6 +64,12 @@ class DesignSettings:
     forms_within: float = chosen(
         4.0, "log evidence", "Log evidence of a form behind the best one up to which it is predicted."
     )
+    seen_in_noise: float = chosen(
+        0.01,
+        "noise",
+        "Predictions of a test are compared along directions in which all of them together differ by more than this: "
+        "what is left out changes a log density by some 1e-4.",
+    )
     draws: int = chosen(400, "draws", "Draws of the answers of a planned test.")
     strain_draws: int = chosen(
         5, "draws", "Draws of the strain noise with which a smoother is tried; the one in the middle counts."
