@@ -131,6 +131,25 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
     assert found.headline.startswith("Compliance of the machine and offset of the strain explain the gap")
     assert "cannot" not in found.headline
+    assert "compliance of the machine alone closes > 99 % of the gap" in found.headline
+    assert "only jointly" not in found.headline  # of less than 1 %
+
+
+def test_contacts_that_give_way_by_half_of_the_travel_are_found_with_their_power(monkeypatch):
+    """Hertz: what they take goes with the force to the power 2/3, in one record of four."""
+    monkeypatch.setitem(globals(), "SAMPLES", 200)
+    _, elongation, nominal = specimen("grip1")
+    size = elongation[-1] / nominal[-1] ** (2.0 / 3.0)
+
+    found = probation.diagnose(
+        campaign({"grip1"}, lambda t, u, f: (t, u + size * np.maximum(f, 0.0) ** (2.0 / 3.0), f)), design=False
+    )
+    assert found.verdict == "explained"
+    assert (found.best.effects, found.best.records) == (("machine_compliance",), ("grip1",))
+    assert found.best.forms == ("large_contact",)
+    power = next(each.value for each in found.best.parameters if each.unit == "")
+    assert power == pytest.approx(2.0 / 3.0, rel=0.05)
+    assert found.shrink.identify.after_MPa < 1.1 * NOISE
 
 
 @pytest.fixture(scope="module")

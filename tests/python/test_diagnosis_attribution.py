@@ -392,6 +392,31 @@ def test_what_may_be_part_of_a_gap_is_told_with_what_it_cannot_be_distinguished_
     )
 
 
+def test_rivals_that_leave_a_gap_are_told_apart_from_those_that_do_not():
+    """All three are in the answer set, but with one of them the records still hold more than noise."""
+    left = {("damage",): 0.6, ("force_drift",): 0.4, ("force_gain",): 1e-9}
+    known = [
+        SimpleNamespace(effects=effects, records=("a",), checks=Checks(None, None, p_value))
+        for effects, p_value in left.items()
+    ]
+    damage = EffectShare("damage", 0.4, 0.9, 0.9, 0.9, ("a",), named=True)
+
+    def told(answer_set):
+        return headline(
+            "explained",
+            known,
+            Attribution((damage,), ("damage",), 0.055, 0.4),
+            answer_set,
+            SimpleNamespace(identify=Closure(0.165, 0.055, 0.055, 1.0, None, ""), records={"a": None}, held_out=None),
+            SimpleNamespace(held_out={}, in_fitted=True, matters=lambda tolerance: True),
+        )
+
+    explains = "Damage explains the gap: with it the misfit falls from 0.165 to 0.055 MPa, the noise being 0.055 MPa"
+    behind = "; not excluded, though more than noise would be left: gain of the force"
+    assert told([*left]) == f"{explains}; these tests cannot distinguish it from drift of the force{behind}."
+    assert told([("damage",), ("force_gain",)]) == f"{explains} (probability 40 %){behind}."
+
+
 def test_an_unknown_that_leads_is_no_news_where_known_effects_leave_no_more_than_noise():
     """By what was probable beforehand it may lead twenty effects that each describe the records as well."""
     names = ("damage", "force_drift", "force_gain", "force_offset", "self_heating")

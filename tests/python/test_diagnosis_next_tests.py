@@ -6,6 +6,7 @@ import pytest
 
 from campaigns.few_records import damage, few_records
 from probation import diagnose
+from probation.settings.design import DESIGN
 
 
 @pytest.fixture(scope="module")
@@ -32,3 +33,11 @@ def test_tests_are_ranked_with_cost_and_chance_and_the_first_is_the_next(ambiguo
 def test_tests_after_the_first_help(ambiguous):
     for each in ambiguous.next_tests[1:]:
         assert each.probability_after > each.probability_before
+
+
+def test_without_a_gap_only_a_test_that_helps_is_proposed():
+    """There is nothing to discriminate, unless a test makes the right answer plainly more probable."""
+    found = diagnose(few_records(), effects=["damage", "force_gain", "machine_compliance"], threads=1)
+    assert found.verdict == "no_gap"
+    assert all(each.probability_after >= each.probability_before + DESIGN.least_help for each in found.next_tests)
+    assert (found.next_test is None) == (not found.next_tests)

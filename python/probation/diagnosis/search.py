@@ -140,7 +140,7 @@ class Search:
         if leading:
             self.refitting.close()
             self.base = with_joint_noise(self.base, leading[0].refit)
-            again = self._on_top_of(self.base, np.inf)
+            again = self._on_top_of(self.base, np.inf, race=True)
             self.found, self.refitting = again.found, again.refitting
             self._screen()
 
@@ -166,14 +166,21 @@ class Search:
             again._begun_anew()
         return again.found
 
-    def _on_top_of(self, base: BaseFit, hopeless: float) -> Search:
-        """A search on another base fit that begins with the leading hypotheses of every number of effects."""
+    def _on_top_of(self, base: BaseFit, hopeless: float, *, race: bool = False) -> Search:
+        """A search on another base fit that begins with the leading hypotheses of every number of effects.
+
+        In a race only those that may lead after their first steps go on.
+        """
         again = Search(base, self.effects, self.threads, self._moved, self.skipping, _ended=self._ended)
         leading = self._near_the_best_of_as_many(hopeless)
-        steps = SEARCH.first_steps if self.budget.spent() else MOST_STEPS
+        steps = SEARCH.first_steps if race or self.budget.spent() else MOST_STEPS
         begun = [(hypothesis.refit.model, hypothesis.refit.parameters) for hypothesis in leading]
         try:
-            again.found += again._judged(again._solved(begun, steps))
+            running, behind = again._solved(begun, steps), list[Refit]()
+            if race:
+                running, behind = again._in_the_running(running)
+                running = again._further(running)
+            again.found += again._judged([*behind, *running])
             again._try_with_unknown()
         except BaseException:
             again.refitting.close()

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from probation.effects.catalogue.machine_compliance import REFERENCE_STRESS as CONTACT_STRESS
+from probation.effects.catalogue.machine_compliance import gross_contact
 from probation.effects.catalogue.stress_activated_flow import REFERENCE_STRESS
 from probation.settings.effects import EFFECTS
 
@@ -107,7 +108,7 @@ def _drift(effect: Effect, size: _Size) -> tuple[Form, ...]:
 def _compliance(effect: Effect, size: _Size) -> tuple[Form, ...]:
     # The noise of the recorded force would become a strain of the specimen, which is stiffer than the frame by far.
     linear = _of_travel(replace(effect.form("crosshead"), own_force=True), size.per_force)
-    contact = effect.form("contact")
+    contact = replace(effect.form("contact"), driving_strain=gross_contact, own_force=True)
     powers, far = contact.parameters[1].starts, max(size.force, 1e-300) / CONTACT_STRESS
     grid: list[tuple[float, ...]] = [
         (part * size.per_force * far ** (1.0 - power), power) for part in EFFECTS.travel_starts for power in powers

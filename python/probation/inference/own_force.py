@@ -89,8 +89,9 @@ class OwnForce:
         self.stress = start
         self._size = max(float(np.max(np.abs(start))), 1e-300)
         self._next = stress(start)
-        left = self._next - start
-        norms, part_left = [float(np.linalg.norm(left))], ROUGHEST
+        with np.errstate(over="ignore", invalid="ignore"):  # far from any force that there is
+            left = self._next - start
+            norms, part_left = [float(np.linalg.norm(left))], ROUGHEST
         for _ in range(MOST_NEWTON_STEPS):
             if np.max(np.abs(left)) <= settled * self._size:
                 return

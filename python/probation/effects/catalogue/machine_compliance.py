@@ -25,6 +25,9 @@ _COMPLIANCE = EffectParameter(
 REFERENCE_STRESS = 10.0
 """Nominal stress at which a frame that is not linear has the compliance of its amplitude [MPa]."""
 
+_LINEAR = 2e-3
+"""Part of the largest force below which gross contacts are linear, as clamped ones are."""
+
 _POWER = EffectParameter(
     name="power_of_the_force",
     unit="",
@@ -48,9 +51,23 @@ def _crosshead(view: RecordView, values: Values) -> FloatArray:
 
 
 def _contact(view: RecordView, values: Values) -> FloatArray:
+    """Small, so that it may go with the recorded force, which is smoothed: its noise is no strain."""
+    return _closing(view, values, view.smooth_nominal_data, 1e-12)
+
+
+def gross_contact(view: RecordView, values: Values) -> FloatArray:
+    """The same under the force that the view has: a smooth one is too far from it where contacts take much.
+
+    Below `_LINEAR` of the largest force they are linear: else none that is at rest would have a stiffness.
+    """
+    return _closing(
+        view, values, view.nominal_data, _LINEAR * float(np.max(np.abs(view.data / view.sampled(view.stretch))))
+    )
+
+
+def _closing(view: RecordView, values: Values, stress: FloatArray, linear: float) -> FloatArray:
     """The frame gives way by a n (n / 10 MPa)^(b - 1), n the nominal stress: joints close (b < 1), grips yield."""
-    stress = view.smooth_nominal_data
-    own = values[0] * stress * (np.maximum(np.abs(stress), 1e-12) / REFERENCE_STRESS) ** (values[1] - 1.0)
+    own = values[0] * stress * (np.maximum(np.abs(stress), linear) / REFERENCE_STRESS) ** (values[1] - 1.0)
     return np.asarray(view.true_strain + np.log1p(-np.clip(own / np.exp(view.true_strain), -0.9, 0.9)))
 
 
