@@ -1,4 +1,4 @@
-"""Causes in published forms, each in two; none is taken from a catalogue of effects."""
+"""Causes in published forms, each in two or three; none is taken from a catalogue of effects."""
 
 from probation_studies.blind.laboratories.institute.causes.beyond import BEYOND
 from probation_studies.blind.laboratories.institute.causes.cause import Cause, Change, Form

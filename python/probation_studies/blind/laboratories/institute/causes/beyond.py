@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation_studies.blind.laboratories.institute.causes.cause import Cause, Change, Form, Shape, shifted
-from probation_studies.blind.laboratories.institute.causes.strain import of_strain
 from probation_studies.blind.laboratories.institute.modal import haward_thackray
 
 if TYPE_CHECKING:
@@ -86,17 +85,6 @@ def _coussot(test: Test, a: float, shape: Shape) -> Change:
     return shifted(a * np.log1p(found))
 
 
-def _out_of_plane(test: Test, a: float, shape: Shape) -> Change:
-    """A single camera: the face goes back as the specimen gets thinner, and the picture shrinks (Sutton 2008)."""
-    return of_strain(lambda strain, force: a * np.expm1(-0.5 * strain))
-
-
-def _camera_warms(test: Test, a: float, shape: Shape) -> Change:
-    """A camera that warms stretches its pictures (Ma 2012)."""
-    x = np.maximum(test.time[::2], 0.0) / test.time[-1]
-    return of_strain(lambda strain, force: -a * np.expm1(-x / shape["part"]))
-
-
 BEYOND = (
     Cause(
         "second process of flow", 0.05, 0.8,
@@ -117,10 +105,5 @@ BEYOND = (
             Form("Moore 1959", _moore, {"strain": (0.03, 0.3)}),
             Form("Coussot 2002", _coussot, {"strain": (0.05, 0.5)}),
         ),
-    ),
-    Cause(
-        "pictures that stretch", 3e-3, 0.1,
-        (Form("out of plane", _out_of_plane), Form("camera that warms", _camera_warms, {"part": (0.05, 0.6)})),
-        rig=True, signed=True,
     ),
 )  # fmt: skip

@@ -42,6 +42,17 @@ def _arms(test: Test, a: float, shape: Shape) -> Change:
     return of_strain(lambda strain, force: np.log1p(np.expm1(strain) * (1.0 + a * np.expm1(strain) / most)) - strain)
 
 
+def _out_of_plane(test: Test, a: float, shape: Shape) -> Change:
+    """A single camera: the face goes back as the specimen gets thinner, and the picture shrinks (Sutton 2008)."""
+    return of_strain(lambda strain, force: a * np.expm1(-0.5 * strain))
+
+
+def _camera_warms(test: Test, a: float, shape: Shape) -> Change:
+    """A camera that warms stretches its pictures (Ma 2012)."""
+    x = np.maximum(test.time[::2], 0.0) / test.time[-1]
+    return of_strain(lambda strain, force: -a * np.expm1(-x / shape["part"]))
+
+
 def _spring(test: Test, a: float, shape: Shape) -> Change:
     """Travel that was corrected with a wrong stiffness of the frame; `a` is the strain at the flow stress."""
     return of_strain(lambda strain, force: a * force / test.setting.flow_stress)
@@ -93,11 +104,16 @@ _SLIP = {"at": (0.1, 0.8), "width": (0.01, 0.1)}
 STRAIN = (
     Cause(
         "zero of the strain", 1e-3, 0.08,
-        (Form("missed zero", _missed_zero), Form("slack taken up", _taken_up, {"load": (0.02, 0.2)})),
+        (
+            Form("missed zero", _missed_zero),
+            Form("slack taken up", _taken_up, {"load": (0.02, 0.2)}),
+            Form("camera that warms", _camera_warms, {"part": (0.05, 0.6)}),
+        ),
         rig=True, signed=True,
     ),
     Cause(
-        "wrong gauge length", 0.02, 0.4, (Form("wrong length", _wrong_gauge), Form("arms on an arc", _arms)),
+        "wrong gauge length", 0.02, 0.4,
+        (Form("wrong length", _wrong_gauge), Form("arms on an arc", _arms), Form("out of plane", _out_of_plane)),
         rig=True, signed=True,
     ),
     Cause(
