@@ -22,6 +22,7 @@ from probation_studies.blind.laboratories.institute.modal import (
 )
 from probation_studies.blind.laboratories.institute.names import NAMES, name_of
 from probation_studies.blind.laboratories.institute.oracle import Placed, consult, discriminability
+from probation_studies.blind.laboratories.institute.planting import plant
 from probation_studies.blind.laboratories.institute.programmes import carry_out, cycles, hold
 from probation_studies.blind.laboratories.institute.series import draw_series
 from probation_studies.blind.laboratories.institute.sight import Sight, added, course_of, shown
@@ -132,7 +133,17 @@ def test_every_form_adds_something_finite_that_grows_with_its_amplitude(cause, e
         assert sizes[0] < 0.2 * sizes[2], form.name  # it vanishes with its amplitude
 
 
-def test_its_names_are_the_catalogues_and_six_causes_have_none():
+@pytest.mark.parametrize("form", [0, 1], ids=["Arruda and Boyce", "Gent"])
+def test_what_is_said_of_a_cause_is_that_of_the_amplitude_in_the_records(form):
+    """Limited chains grow with a high power of their amplitude: steps in proportion would overshoot ever further."""
+    sight = Sight(_series(set(), 38))
+    planted = plant(np.random.default_rng(form), sight, next(each for each in COMMON if "limited" in each.name), 70.0)
+    assert planted.size == pytest.approx(70.0, rel=0.11)
+    columns = [added(test, planted.change(test, k))[:, 0] for k, test in enumerate(sight.tests)]
+    assert np.linalg.norm(sight.left(sight.whitened(columns))) == pytest.approx(planted.size, rel=1e-9)
+
+
+def test_its_names_are_the_catalogues_and_four_causes_have_none():
     assert set(NAMES) == {cause.name for cause in COMMON}
     assert set(NAMES.values()) == {each.name for each in effects()}
     assert [name_of(cause.name) for cause in BEYOND] == ["unknown"] * 4

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 _LEAST, _MOST = 4.0, 100.0
 _STRONGER = 2.5
 """Of the least sqrt(lambda): for pairs, and for what lies outside, of which the nearest cause takes a part."""
-_ROUNDS, _NEAR = 6, 0.1
+_ROUNDS, _NEAR, _POWERS = 8, 0.1, (0.3, 8.0)
 _UNSEEN = 0.05
 """Norm of a usual amplitude's signal below which no record shows a cause."""
 
@@ -59,20 +59,20 @@ def plant_all(random: Generator, sight: Sight, causes: Sequence[Cause]) -> list[
     planted = []
     for cause in causes:
         least = _LEAST * (_STRONGER if len(causes) > 1 or cause in BEYOND else 1.0)
-        found = _plant(random, sight, cause, float(np.exp(random.uniform(np.log(least), np.log(_MOST)))))
+        found = plant(random, sight, cause, float(np.exp(random.uniform(np.log(least), np.log(_MOST)))))
         if found is None:
             return None
         planted.append(found)
     return planted
 
 
-def _plant(random: Generator, sight: Sight, cause: Cause, target: float) -> Planted | None:
+def plant(random: Generator, sight: Sight, cause: Cause, target: float) -> Planted | None:
     """With the amplitude that has the wanted sqrt(lambda), or the largest; None where that does not show."""
     form = cause.forms[int(random.integers(len(cause.forms)))]
     shape = form.draw(random)
     sign = -1.0 if cause.signed and random.uniform() < 0.5 else 1.0
     record = int(random.integers(len(sight.tests))) if cause.rig and random.uniform() < 0.5 else None
-    amplitude = cause.scale
+    amplitude, before, power = cause.scale, None, 1.0
     for _ in range(_ROUNDS):
         columns = tuple(
             added(test, [form.change(test, sign * amplitude, shape)])[:, 0]
@@ -88,7 +88,14 @@ def _plant(random: Generator, sight: Sight, cause: Cause, target: float) -> Plan
             break
         if abs(np.log(target / size)) < _NEAR:
             break
-        amplitude = min(amplitude * float(np.clip(target / size, 0.01, 30.0)), cause.largest)
+        # Secants of the logarithms: what goes with a power of the amplitude would be overshot ever further.
+        here = np.log(amplitude), np.log(size)
+        if before is not None and here[0] != before[0]:
+            power = float(np.clip((here[1] - before[1]) / (here[0] - before[0]), *_POWERS))
+        before = here
+        amplitude = min(amplitude * float(np.clip((target / size) ** (1.0 / power), 0.01, 30.0)), cause.largest)
+    else:
+        return None  # the signal would be that of another amplitude
     if not (1.0 - _NEAR) * _LEAST <= size <= (1.0 + 2.0 * _NEAR) * _MOST:
         return None
     return Planted(cause, form, shape, sign * amplitude, record, columns, signal)

@@ -75,6 +75,8 @@ def plant(random: Generator, bench: Bench, cause: Cause, target: float) -> Plant
         if abs(np.log(target / reached)) < 0.15 or (amplitude >= cause.largest and reached < target):
             break
         amplitude = min(amplitude * float(np.clip(target / reached, 1e-3, 1e3)), cause.largest)
+    else:
+        return None  # the signal would be that of another amplitude
     if reached < LEAST or reached > 2.0 * MOST:
         return None
     return Planted(cause, form, shape, sign * amplitude, record, columns, reached)
