@@ -1,5 +1,7 @@
 """What speaks for an explanation beside its probability: records left out, one amplitude for all, bounds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -8,7 +10,9 @@ from scipy.stats import chi2
 from campaigns import linear_problem as problem
 from probation.diagnosis.checks import amplitude_consistency, checks, left_out_squares
 from probation.diagnosis.closure import Closure
+from probation.diagnosis.free_function import Dependence
 from probation.diagnosis.hypothesis import Hypothesis
+from probation.diagnosis.remainder import Remainder
 from probation.diagnosis.remaining import leaves_too_much
 from probation.diagnosis.result import Shrink
 from probation.effects.cause import Cause
@@ -177,3 +181,17 @@ def test_an_explanation_that_leaves_plainly_more_than_noise_explains_too_little(
 
     ceiling = None if smooth is None else closed(smooth)
     assert leaves_too_much(Shrink(closed(after), None, {}, (), ceiling)) is too_much
+
+
+@pytest.mark.parametrize(("explained", "too_much"), [(0.9, True), (0.5, False), (None, False)])
+def test_what_is_a_function_of_what_was_recorded_is_no_noise(explained, too_much):
+    """0.88 MPa, of which any smooth correction leaves 0.80, and a function of the rate 0.37, 0.65 or all."""
+    left = Closure(before_MPa=2.0, after_MPa=0.88, noise_MPa=0.26, closure=0.8, interval=None, how="")
+    ceiling = replace(left, after_MPa=0.80)
+    depends = (
+        ()
+        if explained is None
+        else (Dependence("strain_rate", "the strain rate", None, "added", explained, "records"),)
+    )
+    remainder = Remainder(0.88, 0.26, depends, "")
+    assert leaves_too_much(Shrink(left, None, {}, (), ceiling), remainder) is too_much

@@ -21,6 +21,7 @@ from probation.diagnosis.next import is_stretched, next_test_of, one_after_the_o
 from probation.diagnosis.probabilities import answer_set, with_unseen
 from probation.diagnosis.remainder import is_left, remainder_of
 from probation.diagnosis.remainder_tests import remainder_tests
+from probation.diagnosis.remaining import leaves_too_much
 from probation.diagnosis.result import Diagnosis
 from probation.diagnosis.signatures import signatures
 from probation.diagnosis.skipped import Skipping
@@ -183,6 +184,9 @@ def diagnose(
     alone = best.effects == (UNKNOWN,)
     unclosed = replace(shrink.identify, after_MPa=shrink.identify.before_MPa) if alone else shrink.identify
     left = _left(base, best.hypothesis, unclosed, campaign) if gap.exists else None
+    if verdict == "explained" and leaves_too_much(shrink, left):
+        verdict = "unexplained"
+        causes = replace(causes, verdict=verdict)
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     done(0.75, "choosing the next test")
     following, apart = (

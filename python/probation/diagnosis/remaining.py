@@ -12,16 +12,29 @@ from probation.noise.joint_noise import jointly_whitened
 from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
+    from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.result import Shrink
     from probation.inference.base_fit import BaseFit
     from probation.inference.refit import Refit
 
 
-def leaves_too_much(shrink: Shrink) -> bool:
-    """Whether the misfit after the best explanation is plainly larger than what noise there may be."""
+def leaves_too_much(shrink: Shrink, left: Remainder | None = None) -> bool:
+    """Whether the misfit after the best explanation is plainly larger than what noise there may be.
+
+    Noise may be more than is estimated: as much as any smooth correction leaves. But what is a function of what was
+    recorded, on records left out, is no noise.
+
+    Parameters
+    ----------
+    shrink : Shrink
+    left : Remainder, optional
+        What the explanation leaves, described.
+    """
     reachable = shrink.identify.noise_MPa
     if shrink.ceiling is not None:
         reachable = max(reachable, shrink.ceiling.after_MPa)
+    if left is not None:
+        reachable = min(reachable, left.with_function_MPa)
     return shrink.identify.after_MPa > EVIDENCE.most_left * reachable
 
 
