@@ -142,7 +142,7 @@ def compare(
         verdict=verdict,
         headline=with_budget(
             headline(
-                explanations[0],
+                explanations,
                 parts,
                 len(kept.records),
                 reference.campaign.name,

@@ -10,6 +10,8 @@ from probation.inference.unknown import UNKNOWN
 from probation.wording import chance
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from probation.comparison.result import ChangedParameter, ChangeExplanation
     from probation.diagnosis.attribution import Attribution
 
@@ -25,25 +27,40 @@ def named(each: ChangeExplanation) -> str:
 
 
 def headline(
-    best: ChangeExplanation, parts: Attribution | None, count: int, reference: str, *, left: bool = False
+    explanations: Sequence[ChangeExplanation],
+    parts: Attribution | None,
+    count: int,
+    reference: str,
+    *,
+    left: bool = False,
 ) -> str:
     """One sentence, with the effects that close nearly all of the gap; `left` says that more than noise is left.
 
     Parameters
     ----------
+    explanations : sequence of ChangeExplanation
+        The best one first. What is named acts as probably as all that hold it together.
     parts : Attribution or None
         Of the best explanation; None where all its effects are named.
     """
+    best = explanations[0]
     if not best.effects:
         return f"Nothing changed since {reference} (probability {chance(best.probability)})."
     shown = best if parts is None else _with_named(best, parts)
     where = "all records" if len(shown.records) == count and count > 1 else ", ".join(shown.records)
-    text = f"Since {reference}: {named(shown)} in {where} (probability {chance(shown.probability)})"
+    text = f"Since {reference}: {named(shown)} in {where} (probability {chance(_acting(shown, explanations))})"
     if shown.parameters:
         text += ": " + "; ".join(sized(parameter) for parameter in shown.parameters[:3])
     if len(shown.effects) < len(best.effects):
         text += adds_little()
     return text + ("; it leaves more than noise." if left and UNKNOWN not in best.effects else ".")
+
+
+def _acting(shown: ChangeExplanation, explanations: Sequence[ChangeExplanation]) -> float:
+    """That all of these effects act, whatever acts beside them; of an unknown one, that it acts alone."""
+    if UNKNOWN in shown.effects:
+        return shown.probability
+    return min(sum(each.probability for each in explanations if {*shown.effects} <= {*each.effects}), 1.0)
 
 
 def _with_named(best: ChangeExplanation, parts: Attribution) -> ChangeExplanation:
@@ -54,7 +71,7 @@ def _with_named(best: ChangeExplanation, parts: Attribution) -> ChangeExplanatio
     parameters = tuple(parameter for parameter in best.parameters if parameter.effect in effects)
     touched = {name for parameter in parameters for name in parameter.records}
     records = tuple(name for name in best.records if name in touched)
-    return replace(best, effects=effects, records=records, probability=parts.probability, parameters=parameters)
+    return replace(best, effects=effects, records=records, parameters=parameters)
 
 
 def sized(each: ChangedParameter) -> str:

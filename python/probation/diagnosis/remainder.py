@@ -8,8 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from probation.diagnosis.free_function import Dependence, FreeFunctions, TriedTerm, terms_of
 from probation.diagnosis.remainder_words import description
 from probation.diagnosis.variables import phases_of, variables_of
@@ -54,11 +52,9 @@ class Remainder:
     what: str = "what is left"
 
     @property
-    def with_function_MPa(self) -> float:
-        """Root mean square that a function of the first variable would leave, not below the noise."""
-        closed = self.depends_on[0].explained if self.depends_on else 0.0
-        above = max(self.rms_MPa**2 - self.noise_MPa**2, 0.0)
-        return float(np.sqrt(self.noise_MPa**2 + (1.0 - closed) * above))
+    def mostly_a_function(self) -> bool:
+        """Whether a function of one variable closes most of it where it was not fitted."""
+        return bool(self.depends_on) and self.depends_on[0].explained > REMAINDER.mostly
 
     def to_dict(self) -> dict[str, Any]:
         """As in `remainder` of docs/formats.md."""

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 def leaves_too_much(shrink: Shrink, left: Remainder | None = None) -> bool:
     """Whether the misfit after the best explanation is plainly larger than what noise there may be.
 
-    Noise may be more than is estimated: as much as any smooth correction leaves. But what is a function of what was
-    recorded, on records left out, is no noise.
+    Noise may be more than is estimated: as much as any smooth correction leaves. But what is mostly a function of what
+    was recorded, where that was left out, is no noise.
 
     Parameters
     ----------
@@ -33,8 +33,8 @@ def leaves_too_much(shrink: Shrink, left: Remainder | None = None) -> bool:
     reachable = shrink.identify.noise_MPa
     if shrink.ceiling is not None:
         reachable = max(reachable, shrink.ceiling.after_MPa)
-    if left is not None:
-        reachable = min(reachable, left.with_function_MPa)
+    if left is not None and left.mostly_a_function:
+        reachable = shrink.identify.noise_MPa
     return shrink.identify.after_MPa > EVIDENCE.most_left * reachable
 
 

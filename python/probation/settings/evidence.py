@@ -157,9 +157,9 @@ class EvidenceSettings:
     most_left: float = calibrated(
         1.5,
         "-",
-        "Misfit after an explanation, over the noise and over what any smooth correction leaves, or over what a "
-        "function of a recorded variable leaves if that is less, beyond which it explains too little, however its "
-        "form may be wrong. Right explanations of sealed campaigns leave 0.9 to 1.2 times the noise.",
+        "Misfit after an explanation, over the noise and over what any smooth correction leaves, beyond which it "
+        "explains too little, however its form may be wrong; over the noise alone where what is left is mostly a "
+        "function of a recorded variable. Right explanations of sealed campaigns leave 0.9 to 1.2 times the noise.",
         source="docs/blind-results.md: calibrate, seed 43",
     )
     share_worth_naming: float = chosen(

@@ -25,6 +25,12 @@ class RemainderSettings:
     certain: float = chosen(
         4.0, "standard errors", "Standard errors of the noise's mean square by which a remainder must exceed it."
     )
+    mostly: float = chosen(
+        0.5,
+        "remainder",
+        "Part of what is left that a function of one variable closes, where it was not fitted, from which on what is "
+        "left is no noise.",
+    )
     least_part: float = chosen(0.2, "remainder", "Part of the remainder that a variable must explain to be reported.")
     most_variables: int = chosen(4, "variables", "Variables that are reported.")
     least_remainder: float = chosen(
