@@ -14,6 +14,7 @@ from probation.diagnosis.attribution import Attribution, EffectShare, _named, _s
 from probation.diagnosis.closure import Closure
 from probation.diagnosis.headline import headline
 from probation.diagnosis.result import Checks
+from probation.inference.scatter import Scatter
 from probation.report.diagnosis_tables import effects_table
 from probation.settings.evidence import EVIDENCE
 from probation.wording import signed_percent
@@ -505,7 +506,7 @@ def test_where_an_unknown_leads_alone_it_is_told_how_far_known_effects_come(unex
     ],
 )
 def test_without_a_gap_the_headline_tells_what_that_hangs_on(left, hangs, told):
-    scatter = SimpleNamespace(source="replicates" if hangs else "stated", text="they may")
+    scatter = SimpleNamespace(source="replicates" if hangs else "stated", text="they may", is_seen=True)
     gap = SimpleNamespace(
         held_out={},
         hangs_on_scatter=hangs,
@@ -518,3 +519,27 @@ def test_without_a_gap_the_headline_tells_what_that_hangs_on(left, hangs, told):
     shrink = SimpleNamespace(identify=closure, records={"a": None, "b": None}, held_out=None, effects=())
     none = SimpleNamespace(effects=(), records=())
     assert headline("no_gap", [none], Attribution((), (), left, 1.0), [()], shrink, gap) == told
+
+
+def test_replicates_that_do_not_show_that_specimens_differ_do_not_show_the_contrary_either():
+    """All intervals begin at next to nothing, and the records are described with deviations of their own only."""
+    unseen = Scatter(("tau_max_s", "area"), (0.02, 0.01), ((1e-5, 0.05), (1e-5, 0.03)), 4, "replicates")
+    assert unseen.text == "replicates do not show that specimens differ"
+    gap = SimpleNamespace(
+        held_out={},
+        hangs_on_scatter=True,
+        scatter=unseen,
+        test=SimpleNamespace(p_value=0.2),
+        held_out_p_value=1.0,
+        trend=None,
+    )
+    shrink = SimpleNamespace(
+        identify=Closure(0.04, 0.04, 0.04, None, None, ""), records={"a": None}, held_out=None, effects=()
+    )
+    told = headline(
+        "no_gap", [SimpleNamespace(effects=(), records=())], Attribution((), (), 0.04, 1.0), [()], shrink, gap
+    )
+    assert told.endswith(
+        "; replicates do not show that specimens differ, nor that they do not, and if they were alike there would be "
+        "a gap."
+    )

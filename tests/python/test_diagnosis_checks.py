@@ -185,7 +185,7 @@ def test_an_explanation_that_leaves_plainly_more_than_noise_explains_too_little(
 
 @pytest.mark.parametrize(("explained", "too_much"), [(0.6, True), (0.4, False), (None, False)])
 def test_what_is_a_function_of_what_was_recorded_is_no_noise(explained, too_much):
-    """0.88 MPa, of which any smooth correction leaves 0.80: a function of the rate foretells most of it, or less."""
+    """0.88 MPa, of which any smooth correction leaves 0.80: a function of the rate closes most of it, or less."""
     left = Closure(before_MPa=2.0, after_MPa=0.88, noise_MPa=0.26, closure=0.8, interval=None, how="")
     ceiling = replace(left, after_MPa=0.80)
     depends = (

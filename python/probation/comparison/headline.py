@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from probation.diagnosis.headline import adds_little
+from probation.diagnosis.probabilities import probability_of_all
 from probation.inference.unknown import UNKNOWN
 from probation.wording import chance
 
@@ -57,10 +58,8 @@ def headline(
 
 
 def _acting(shown: ChangeExplanation, explanations: Sequence[ChangeExplanation]) -> float:
-    """That all of these effects act, whatever acts beside them; of an unknown one, that it acts alone."""
-    if UNKNOWN in shown.effects:
-        return shown.probability
-    return min(sum(each.probability for each in explanations if {*shown.effects} <= {*each.effects}), 1.0)
+    """That all of these effects act, alone or jointly with others; of an unknown one, that it acts alone."""
+    return shown.probability if UNKNOWN in shown.effects else probability_of_all({*shown.effects}, explanations)
 
 
 def _with_named(best: ChangeExplanation, parts: Attribution) -> ChangeExplanation:

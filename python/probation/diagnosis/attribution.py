@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from probation.diagnosis.probabilities import probability_of_all
 from probation.inference.candidate import cause_key
 from probation.inference.refit import Ended, Refit, refit
 from probation.inference.unknown import UNKNOWN
@@ -162,7 +163,7 @@ def attribution(
         named, after = (), closure.before_MPa
     entries = []
     for name in dict.fromkeys([*best.effects, *(name for explanation in weighed for name in explanation.effects)]):
-        probability = min(sum(explanation.probability for explanation in weighed if name in explanation.effects), 1.0)
+        probability = probability_of_all({name}, weighed)
         inside = name in known and bool(closed)
         if name not in {*best.effects, *known} and probability < EVIDENCE.probability_worth_naming:
             continue
@@ -186,19 +187,16 @@ def attribution(
         effects=tuple(entries),
         named=tuple(entry.name for entry in entries if entry.named),
         after_MPa=after,
-        probability=_probability({*named}, weighed),
+        probability=probability_of_all({*named}, weighed),
     )
-
-
-def _probability(effects: AbstractSet[str], weighed: Sequence[Weighed]) -> float:
-    """That all of them are in the right explanation."""
-    return min(sum(explanation.probability for explanation in weighed if effects <= {*explanation.effects}), 1.0)
 
 
 def _probability_within(effects: AbstractSet[str], weighed: Sequence[Weighed]) -> float:
     """That all of them act if nothing outside the catalogue does: an unknown says nothing of which of them act."""
     catalogued = [explanation for explanation in weighed if UNKNOWN not in explanation.effects]
-    return _probability(effects, catalogued) / max(sum(explanation.probability for explanation in catalogued), 1e-300)
+    return probability_of_all(effects, catalogued) / max(
+        sum(explanation.probability for explanation in catalogued), 1e-300
+    )
 
 
 def _parts(

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from probation.diagnosis.budget import Budget, CutShort
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
+    from probation.diagnosis.remainder import Remainder
     from probation.diagnosis.result import Checks, RecordCurves, Shrink, Verdict
     from probation.diagnosis.skipped import Skipped, Skipping
     from probation.diagnosis.trust import Trust
@@ -117,8 +118,12 @@ class Causes:
     ) -> tuple[Causes, Shrink, dict[str, RecordCurves]]:
         """How far the gap shrinks (`shrink_of`), and the causes: unexplained where too much is left."""
         shrink, curves = shrink_of(self.base, self.nearest, located, skipping, seed=seed)
-        left = self.verdict == "explained" and leaves_too_much(shrink)
-        return replace(self, verdict="unexplained") if left else self, shrink, curves
+        return self.judged_by(shrink), shrink, curves
+
+    def judged_by(self, shrink: Shrink, left: Remainder | None = None) -> Causes:
+        """Unexplained where `leaves_too_much` says so of the best explanation."""
+        too_much = self.verdict == "explained" and leaves_too_much(shrink, left)
+        return replace(self, verdict="unexplained") if too_much else self
 
 
 def causes_of(

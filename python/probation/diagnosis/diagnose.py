@@ -21,7 +21,6 @@ from probation.diagnosis.next import is_stretched, next_test_of, one_after_the_o
 from probation.diagnosis.probabilities import answer_set, with_unseen
 from probation.diagnosis.remainder import is_left, remainder_of
 from probation.diagnosis.remainder_tests import remainder_tests
-from probation.diagnosis.remaining import leaves_too_much
 from probation.diagnosis.result import Diagnosis
 from probation.diagnosis.signatures import signatures
 from probation.diagnosis.skipped import Skipping
@@ -175,7 +174,7 @@ def diagnose(
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
     done(0.7, "measuring what causes close")
     causes, shrink, curves = causes.shrunk(where.located, skipping, seed=seed)
-    weighed, verdict = causes.weighed, causes.verdict
+    weighed = causes.weighed
     chosen = answer_set(weighed)
     if gap.exists:
         weighed = causes.with_untried(with_unseen(weighed, considered))
@@ -184,9 +183,8 @@ def diagnose(
     alone = best.effects == (UNKNOWN,)
     unclosed = replace(shrink.identify, after_MPa=shrink.identify.before_MPa) if alone else shrink.identify
     left = _left(base, best.hypothesis, unclosed, campaign) if gap.exists else None
-    if verdict == "explained" and leaves_too_much(shrink, left):
-        verdict = "unexplained"
-        causes = replace(causes, verdict=verdict)
+    causes = causes.judged_by(shrink, left)
+    verdict = causes.verdict
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     done(0.75, "choosing the next test")
     following, apart = (

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from probation.diagnosis.remainder_words import function_name
 from probation.effects.registry import effect
-from probation.inference.scatter import NOT_SEEN
 from probation.inference.unknown import UNKNOWN
 from probation.settings.calibrated import CALIBRATED
 from probation.settings.detection import DETECTION
@@ -135,11 +134,9 @@ def _scatter_clause(gap: Gap) -> str:
     """How far specimens differ, where that is known or decides the verdict."""
     if not gap.hangs_on_scatter:
         return f"; {gap.scatter.text}" if gap.scatter.source == "replicates" else ""
-    text = gap.scatter.text
-    if text == NOT_SEEN:
-        text += ", nor that they do not"
+    neither = "" if gap.scatter.is_seen else ", nor that they do not"
     order = "" if gap.trend is None else f"; but {gap.trend.text}"
-    return f"; {text}, and if they were alike there would be a gap{order}"
+    return f"; {gap.scatter.text}{neither}, and if they were alike there would be a gap{order}"
 
 
 def _small(gap: Gap, tolerance: float, noise: float) -> str:

@@ -16,6 +16,7 @@ from probation.settings.evidence import EVIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
+    from collections.abc import Set as AbstractSet
 
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.trust import Trust
@@ -28,6 +29,14 @@ class HasProbability(Protocol):
     @property
     def probability(self) -> float:
         """From 0 to 1."""
+
+
+class HasEffects(HasProbability, Protocol):
+    """Anything that names effects, with the probability that these act, and no others."""
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """Names."""
 
 
 Probable = TypeVar("Probable", bound=HasProbability)
@@ -298,6 +307,11 @@ def leading(ranked: Sequence[Probable], covered: float = EVIDENCE.credible_set) 
         if total >= covered:
             break
     return tuple(chosen)
+
+
+def probability_of_all(effects: AbstractSet[str], explanations: Sequence[HasEffects]) -> float:
+    """That all of these effects act, alone or jointly with others."""
+    return min(sum(explanation.probability for explanation in explanations if effects <= {*explanation.effects}), 1.0)
 
 
 def _log_odds(hypothesis: Hypothesis) -> float:

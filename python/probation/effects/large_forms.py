@@ -86,11 +86,6 @@ def _gain(effect: Effect, size: _Size) -> tuple[Form, ...]:
     return (_widened(effect.form("factor"), EFFECTS.large_gain, -0.9, 4.0),)
 
 
-def _gain_of_the_strain(effect: Effect, size: _Size) -> tuple[Form, ...]:
-    del size
-    return (_widened(effect.form("factor"), EFFECTS.large_gain, -0.9, 4.0),)
-
-
 def _offset(effect: Effect, size: _Size) -> tuple[Form, ...]:
     return (_widened(effect.form("constant"), EFFECTS.large_force * size.force, -size.force, size.force),)
 
@@ -244,7 +239,7 @@ _LARGE: dict[str, Callable[[Effect, _Size], tuple[Form, ...]]] = {
     "finite_extensibility": _locking,
     "machine_compliance": _compliance,
     "prestress": _prestress,
-    "strain_gain": _gain_of_the_strain,
+    "strain_gain": _gain,
     "strain_offset": _slack,
     "stress_activated_flow": _flow,
 }

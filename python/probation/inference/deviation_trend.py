@@ -24,11 +24,12 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
     from probation.inference.base_fit import BaseFit
 
-_LIKE = {
-    "order": "as with a room that warms, a material that ages or a cell that wanders",
-    "strain_rate": "as with a law of another rate dependence",
-    "temperature": "as with a law that knows no temperature",
+_WORDS = {
+    "order": ("the order of the tests", "a room that warms, a material that ages or a cell that wanders"),
+    "strain_rate": ("the strain rate", "a law of another rate dependence"),
+    "temperature": ("the temperature", "a law that knows no temperature"),
 }
+"""Of each variable its name, and what makes specimens seem to follow it."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +55,10 @@ class DeviationTrend:
     @property
     def text(self) -> str:
         """In words."""
-        name = {"order": "the order of the tests", "strain_rate": "the strain rate"}.get(
-            self.variable, f"the {self.variable}"
-        )
+        name, like = _WORDS[self.variable]
         what = TITLES.get(self.deviation, self.deviation)
         falls = "falls" if self.correlation < 0.0 else "grows"
-        return f"{what} {falls} with {name} (p = {self.p_value:.2g}), {_LIKE[self.variable]}"
+        return f"{what} {falls} with {name} (p = {self.p_value:.2g}), as with {like}"
 
 
 def deviation_trend(base: BaseFit) -> DeviationTrend | None:

@@ -37,8 +37,6 @@ FIRST_STEP, ACCEPTED, ADAPTED = 0.7, 0.44, 0.2
 """Metropolis: the first step of a logarithm, the acceptance that steps are adapted to (Roberts & Rosenthal 2001), and
 by how much each time."""
 
-NOT_SEEN = "replicates do not show that specimens differ"
-
 Source = Literal["replicates", "assumed", "stated", "none"]
 
 
@@ -86,16 +84,26 @@ class Scatter:
         """How far specimens differ, in words: "specimens differ by 1.9 % in E_u and 2.4 % in G"."""
         if not self.any:
             return "specimens are taken as alike"
-        parts = [
+        if self.source == "assumed":
+            return f"without replicates it is assumed that specimens differ by {listed(self._seen, 'and')}"
+        if not self.is_seen:
+            return "replicates do not show that specimens differ"
+        said = "are said to " if self.source == "stated" else ""
+        return f"specimens {said}differ by {listed(self._seen, 'and')}"
+
+    @property
+    def _seen(self) -> list[str]:
+        """What specimens differ in for certain, and by how much, in words."""
+        return [
             f"{size:.2g} in {TITLES[name]}" if name == START else f"{percentage(size)} % in {TITLES.get(name, name)}"
             for index, (name, size) in enumerate(zip(self.names, self.deviations, strict=True))
             if size > 0.0 and (self.intervals is None or self.intervals[index][0] > NOISE.scatter_seen * size)
         ]
-        if self.source == "assumed":
-            return f"without replicates it is assumed that specimens differ by {listed(parts, 'and')}"
-        if not parts:
-            return NOT_SEEN
-        return f"specimens {'are said to ' if self.source == 'stated' else ''}differ by {listed(parts, 'and')}"
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether specimens differ for certain, as replicates show, as is assumed or as is stated."""
+        return bool(self._seen)
 
     @property
     def known(self) -> bool:

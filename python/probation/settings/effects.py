@@ -14,7 +14,8 @@ class EffectsSettings:
     large_gain: float = chosen(
         0.3,
         "-",
-        "Standard deviation of a gross relative error of the force or the section: a wrong range, a wrong width.",
+        "Standard deviation of a gross relative error of the force, the section or the elongation: a wrong range, a "
+        "wrong width, a wrong gauge length.",
     )
     large_force: float = chosen(0.2, "largest force", "Standard deviation of a gross error of the force.")
     largest_drift: float = chosen(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.strain_periodic import likely_periods
-from probation.effects.catalogue.strain_offset import LEAST_STRETCH
+from probation.effects.catalogue.strain_offset import true_strain_of
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
 if TYPE_CHECKING:
@@ -144,7 +144,7 @@ def _screw_on_force(view: RecordView, values: Values, stress: FloatArray) -> Flo
 def _screw_on_strain(view: RecordView, values: Values) -> FloatArray:
     """A screw whose thread is uneven: the travel that is recorded is not quite the specimen's; elongations differ."""
     wave = _turning(view, values)
-    return np.asarray(np.log(np.maximum(np.exp(view.true_strain) + wave - wave[0], LEAST_STRETCH)))
+    return true_strain_of(np.exp(view.true_strain) + wave - wave[0])
 
 
 def _turns(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:

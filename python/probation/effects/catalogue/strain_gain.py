@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from probation.effects.catalogue.strain_offset import LEAST_STRETCH
+from probation.effects.catalogue.strain_offset import true_strain_of
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 def _factor(view: RecordView, values: Values) -> FloatArray:
     """The specimen's elongation is the recorded one over 1 + a."""
-    return _seen(np.expm1(view.true_strain) / (1.0 + values[0]))
+    return true_strain_of(1.0 + np.expm1(view.true_strain) / (1.0 + values[0]))
 
 
 def _bending(view: RecordView, values: Values) -> FloatArray:
@@ -24,11 +24,7 @@ def _bending(view: RecordView, values: Values) -> FloatArray:
     elongation = np.expm1(view.true_strain)
     largest = float(np.max(np.abs(np.expm1(view.recorded_strain))))
     used = np.abs(elongation) / max(largest, 1e-300)
-    return _seen(elongation / (1.0 + values[0] * used ** values[1]))
-
-
-def _seen(elongation: FloatArray) -> FloatArray:
-    return np.asarray(np.log(np.maximum(1.0 + elongation, LEAST_STRETCH)))
+    return true_strain_of(1.0 + elongation / (1.0 + values[0] * used ** values[1]))
 
 
 _SIZE = "gauge lengths and extensometers to 1 or 2 %, dumb-bells and clips on soft strips to some per cent"

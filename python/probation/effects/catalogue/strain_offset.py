@@ -78,6 +78,11 @@ def _seating(view: RecordView, values: Values) -> FloatArray:
     """
     pull = np.maximum.accumulate(np.maximum(view.smooth_nominal_data, 0.0))
     stretch = np.exp(view.true_strain) + values[0] * np.expm1(-pull / values[1])
+    return true_strain_of(stretch)
+
+
+def true_strain_of(stretch: FloatArray) -> FloatArray:
+    """Logarithm of a stretch, of `LEAST_STRETCH` at least."""
     return np.asarray(np.log(np.maximum(stretch, LEAST_STRETCH)))
 
 
