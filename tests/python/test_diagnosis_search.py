@@ -10,10 +10,11 @@ from bench import waiting
 import probation
 from campaigns.few_records import damage, few_records, offset
 from probation.diagnosis import diagnose
+from probation.diagnosis.beginnings import first_of_each
 from probation.diagnosis.causes import causes_of
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.refitting import Refitting
-from probation.diagnosis.search import Search, _first_of_each
+from probation.diagnosis.search import Search
 from probation.effects.cause import Cause
 from probation.effects.registry import effect, effects
 from probation.identify.base import base_fit
@@ -123,7 +124,7 @@ def test_nothing_less_beats_what_leads_in_the_end(made, monkeypatch):
             smaller = model.with_causes(cause for cause, _ in part)
             jobs.append((smaller, smaller.parameters(base, *(own for _, own in part))))
     before = causes.base.refit
-    for each in _first_of_each(search.candidates()):
+    for each in first_of_each(search.candidates()):
         jobs.append((causes.base.model.with_causes([each.cause]), np.concatenate([before.parameters, each.values])))
     judged = []
     for smaller, start in jobs:

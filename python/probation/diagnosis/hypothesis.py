@@ -51,6 +51,11 @@ class Hypothesis:
         )
 
     @property
+    def standing(self) -> float:
+        """Its log evidence, and how probable its forms and places are among those that its effects may have."""
+        return self.evidence.log_evidence + self.log_share
+
+    @property
     def causes(self) -> tuple[Cause, ...]:
         """Empty for the base law."""
         return self.refit.model.causes
@@ -59,6 +64,11 @@ class Hypothesis:
     def effects(self) -> tuple[str, ...]:
         """Names of the effects, sorted, each once."""
         return tuple(sorted({cause.effect.name for cause in self.causes}))
+
+    @property
+    def acts_in_several(self) -> bool:
+        """Whether an effect of it acts in several records, in each by itself."""
+        return len(self.causes) > len(self.effects)
 
     @cached_property
     def log_share(self) -> float:

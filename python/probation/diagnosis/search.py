@@ -4,15 +4,34 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from itertools import chain, combinations, compress, product
+from operator import attrgetter
 from typing import TYPE_CHECKING, Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from probation.detection.lines_and_steps import find_lines, find_steps
-from probation.detection.strain_periodic import find_strain_periodic
+from probation.diagnosis.beginnings import (
+    each_alone,
+    first_of_each,
+    forms_of_the_best,
+    further_starts,
+    gain_together,
+    in_several,
+    promising,
+    promising_in_several,
+)
 from probation.diagnosis.budget import Budget, CutShort
+from probation.diagnosis.credible import credible
 from probation.diagnosis.hypothesis import Hypothesis
+from probation.diagnosis.refits_by_cause import (
+    effects_placed,
+    hidden_by,
+    least_of_each,
+    least_of_each_effect,
+    of_one_cause,
+    parts_of,
+    with_others_absent,
+)
 from probation.diagnosis.refitting import Refitting
 from probation.diagnosis.skipped import Skipping
 from probation.effects.cause import Cause
@@ -150,12 +169,12 @@ class Search:
         A linearised gain may be one that no refit realises, and specimens may be taken for more than they are until
         their deviations are found around the best effect.
         """
-        there = {cause_key(fit.model.causes[0]) for fit in _of_one_cause(each.refit for each in self.found[1:])}
+        there = {cause_key(fit.model.causes[0]) for fit in of_one_cause(each.refit for each in self.found[1:])}
         reached = self._most_realised()
         least = max(min(reached - SEARCH.race_gain, SEARCH.passed_over * reached), 0.0)
-        candidates = _first_of_each(self._candidates)
+        candidates = first_of_each(self._candidates)
         new = [each for each in candidates if each.gain > least and cause_key(each.cause) not in there]
-        begun = self._solved(self._jobs(self.base.refit, _alone(new), self.base.other_starts), SEARCH.first_steps)
+        begun = self._solved(self._jobs(self.base.refit, each_alone(new), self.base.other_starts), SEARCH.first_steps)
         limit = self._limit([*begun, *(each.refit for each in self.found[1:])])
         self.found += self._judged(self._further([fit for fit in begun if fit.chi_square <= limit]))
 
@@ -195,18 +214,18 @@ class Search:
         effects leave room for the others: of each set of effects the best form is among them.
         """
         forms: dict[frozenset[Key], Hypothesis] = {}
-        for hypothesis in sorted(self.found[1:], key=_standing, reverse=True):
+        for hypothesis in sorted(self.found[1:], key=attrgetter("standing"), reverse=True):
             forms.setdefault(hypothesis.refit.keys, hypothesis)
         chosen: list[Hypothesis] = []
         for size in dict.fromkeys(len(hypothesis.effects) for hypothesis in forms.values()):
             as_many = [hypothesis for hypothesis in forms.values() if len(hypothesis.effects) == size]
-            best, sets = _standing(as_many[0]), self.ranked(size)
+            best, sets = as_many[0].standing, self.ranked(size)
             if size == 1:
                 race = max(hopeless, SEARCH.slack)
             else:
                 race, sets = hopeless, sets[: SEARCH.reconsidered]
-            chosen += [each for each in as_many[: SEARCH.reconsidered] if _standing(each) >= best - hopeless]
-            chosen += [each for each in sets if _standing(each) >= best - race and each not in chosen]
+            chosen += [each for each in as_many[: SEARCH.reconsidered] if each.standing >= best - hopeless]
+            chosen += [each for each in sets if each.standing >= best - race and each not in chosen]
         return chosen
 
     def ranked(self, size: int | None = None, *, acting_once: bool = False) -> list[Hypothesis]:
@@ -216,12 +235,12 @@ class Search:
         """
         best: dict[tuple[str, ...], Hypothesis] = {}
         for hypothesis in self.found[1:]:
-            if (size is not None and len(hypothesis.effects) != size) or (acting_once and _acts_in_several(hypothesis)):
+            if (size is not None and len(hypothesis.effects) != size) or (acting_once and hypothesis.acts_in_several):
                 continue
             known = best.get(hypothesis.effects)
-            if known is None or _standing(hypothesis) > _standing(known):
+            if known is None or hypothesis.standing > known.standing:
                 best[hypothesis.effects] = hypothesis
-        return sorted(best.values(), key=_standing, reverse=True)
+        return sorted(best.values(), key=attrgetter("standing"), reverse=True)
 
     def _worth_extending(self, size: int, left: bool) -> list[Hypothesis]:
         """The best of so many effects, and where it leaves something the next; of several those not far behind it.
@@ -230,9 +249,9 @@ class Search:
         """
         most = SEARCH.extended_explanations if left else 1
         leading, once = self.ranked(size), self.ranked(size, acting_once=True)
-        least = -np.inf if size == 1 else _standing(leading[0]) - SEARCH.hopeless
-        first, *others = [*once[:most], *filter(_acts_in_several, leading[:most])]
-        return [first, *(hypothesis for hypothesis in others if _standing(hypothesis) > least)]
+        least = -np.inf if size == 1 else leading[0].standing - SEARCH.hopeless
+        first, *others = [*once[:most], *(each for each in leading[:most] if each.acts_in_several)]
+        return [first, *(hypothesis for hypothesis in others if hypothesis.standing > least)]
 
     def _something_left(self, best: Hypothesis) -> bool:
         return best.evidence.log_evidence_unknown > best.evidence.log_evidence + SEARCH.unknown_lead
@@ -245,8 +264,11 @@ class Search:
             started += self._candidates_at(start)
         return sorted(started, key=lambda candidate: -candidate.gain)
 
+    def _left_by(self, refit: Refit) -> Whitened:
+        return self.base.whitened.with_residual(refit.residual, refit.jacobian)
+
     def _screen(self) -> None:
-        self._candidates = self._credible(self.candidates(), self.base.refit)
+        self._candidates = credible(self.candidates(), self._left_by(self.base.refit))
 
     def _most_realised(self) -> float:
         """Largest gain of a single effect that was refitted."""
@@ -255,20 +277,20 @@ class Search:
     def _singles(self) -> None:
         self._screen()
         candidates = self._candidates
-        first = _promising(_first_of_each(candidates))
+        first = promising(first_of_each(candidates))
         base = self.base
-        jobs = self._jobs(base.refit, _alone(first), base.other_starts)
-        begun = self._solved([*jobs, *self._jobs(base.refit, _promising_in_several(candidates))], SEARCH.first_steps)
+        jobs = self._jobs(base.refit, each_alone(first), base.other_starts)
+        begun = self._solved([*jobs, *self._jobs(base.refit, promising_in_several(candidates))], SEARCH.first_steps)
         begun += self._each_by_itself(begun)
         running, behind = self._in_the_running(begun)
         self.found += self._judged(behind)
-        keys = {cause_key(fit.model.causes[0]) for fit in _of_one_cause(running)}
-        others = _others(_promising(candidates), first, SEARCH.starts - 1)
+        keys = {cause_key(fit.model.causes[0]) for fit in of_one_cause(running)}
+        others = further_starts(promising(candidates), first, SEARCH.starts - 1)
         more = [candidate for candidate in others if cause_key(candidate.cause) in keys]
-        polished = self._further(running, self._jobs(base.refit, _alone(more), base.other_starts))
+        polished = self._further(running, self._jobs(base.refit, each_alone(more), base.other_starts))
         self.found += self._judged(polished)
         if self._gap_left(polished) > SEARCH.strong_gap:
-            self.found += self._judged(self._begun_jointly(_of_one_cause(begun)))
+            self.found += self._judged(self._begun_jointly(of_one_cause(begun)))
         self._forms_of_the_leader()
 
     def _forms_of_the_leader(self) -> None:
@@ -295,10 +317,10 @@ class Search:
         """
         jobs, residual = [], self.base.model.residual(self.base.refit.parameters)
         most = self.base.refit.chi_square - SEARCH.slack
-        gross = [single for single in singles if _hidden(single) and single.chi_square < most]
-        for one, other in combinations(_least_of_each(gross).values(), 2):
+        gross = [single for single in singles if hidden_by(single) and single.chi_square < most]
+        for one, other in combinations(least_of_each(gross).values(), 2):
             pair = one.model.causes[-1], other.model.causes[-1]
-            if _hidden(one) != _hidden(other) or pair[0].effect is pair[1].effect:
+            if hidden_by(one) != hidden_by(other) or pair[0].effect is pair[1].effect:
                 continue
             model = self.base.model.with_causes(pair)
             views = [view for view in model.views if pair[0].touches(view.id)]
@@ -337,8 +359,8 @@ class Search:
             best = max((score for score in scores.values() if np.isfinite(score)), default=0.0)
             left = max(-best - 0.5 * count - np.sqrt(2.0 * count), 0.0)
             least = best - (SEARCH.worth_polishing - 1.0) * left - SEARCH.slack
-            effects = {_placed(fit) for fit in refits if scores.get(id(fit), -np.inf) >= least}
-            near = {id(fit) for fit in refits if id(fit) in near and _placed(fit) in effects}
+            effects = {effects_placed(fit) for fit in refits if scores.get(id(fit), -np.inf) >= least}
+            near = {id(fit) for fit in refits if id(fit) in near and effects_placed(fit) in effects}
         return [fit for fit in refits if id(fit) in near], [fit for fit in refits if id(fit) not in near]
 
     def _gap_left(self, refits: Sequence[Refit]) -> float:
@@ -376,7 +398,7 @@ class Search:
         behind: list[Refit] = []
         ahead: list[Refit] = []
         for (leading, _), begun in zip(wanted, self._solved_in_groups(jobs, SEARCH.first_steps), strict=True):
-            least = _least_of_each_effect(begun, len(leading.causes))
+            least = least_of_each_effect(begun, len(leading.causes))
             kept = {id(fit) for fit in least}
             behind += [fit for fit in begun if id(fit) not in kept]
             ahead += least
@@ -417,51 +439,13 @@ class Search:
             return len(leading.effects) < SEARCH.most_effects or name in leading.effects
 
         possible = [candidate for candidate in candidates if may_be_added(candidate.cause)]
-        ranked = self._credible(possible, leading.refit)
-        chosen = _forms_of_the_best(
+        ranked = credible(possible, self._left_by(leading.refit))
+        chosen = forms_of_the_best(
             [candidate for candidate in ranked if candidate.gain > SEARCH.worth_refitting], SEARCH.additions
         )
         most = max((candidate.gain for candidate in ranked), default=0.0)
-        several = [together for together in _in_several(ranked) if only is None and _gain(together) > most]
-        return [*_alone(chosen), *several]
-
-    def _credible(self, candidates: Sequence[Candidate], before: Refit) -> list[Candidate]:
-        """Without sharp causes where nothing sharp is left; a soft step shows by what no smooth cause does."""
-        left = self.base.whitened.with_residual(before.residual, before.jacobian)
-        kinds = {candidate.cause.form.sharp for candidate in candidates}
-        found = find_lines(left) if "line" in kinds else ()
-        lines = {line.record for line in found if line.p_value < SEARCH.line_or_step_level}
-        steps = {step.record: step.p_value for step in find_steps(left)} if "step" in kinds else {}
-        periodic = self._periodic_in_strain(left) if "strain_period" in kinds else set()
-        everywhere = {record.name for record in left.records}
-        smooth_ones = [candidate for candidate in candidates if candidate.cause.form.sharp is None]
-        best_smooth = max(smooth_ones, key=lambda candidate: candidate.gain, default=None)
-        smooth = 0.0 if best_smooth is None else best_smooth.gain
-
-        def credible(candidate: Candidate) -> bool:
-            sharp = candidate.cause.form.sharp
-            places = everywhere if candidate.cause.records is None else {*candidate.cause.records}
-            if sharp is None or (
-                sharp == "step" and candidate.gain > max(SEARCH.soft_step_ratio * smooth, SEARCH.strong_gap)
-            ):
-                return True
-            if sharp == "step" and best_smooth is not None and candidate.cause.effect is best_smooth.cause.effect:
-                return True  # a slip that creeps may be one that takes some samples
-            if sharp == "line":
-                return bool(places & lines)
-            if sharp == "strain_period":
-                return bool(places & periodic)
-            level = (
-                SEARCH.soft_step_level if candidate.gain > smooth + SEARCH.soft_step_lead else SEARCH.line_or_step_level
-            )
-            return min((steps.get(name, 1.0) for name in places), default=1.0) < level
-
-        return [candidate for candidate in candidates if credible(candidate)]
-
-    def _periodic_in_strain(self, left: Whitened) -> set[str]:
-        """Records in which something is periodic in the strain: all of them, where it shows in all together."""
-        seen = {wave.record for wave in find_strain_periodic(left) if wave.p_value < SEARCH.line_or_step_level}
-        return {record.name for record in left.records if None in seen or record.name in seen}
+        several = [together for together in in_several(ranked) if only is None and gain_together(together) > most]
+        return [*each_alone(chosen), *several]
 
     def _parts_of_the_leader(self) -> None:
         """Every part of the leading explanation from its own values: a part that was stuck elsewhere may lead.
@@ -478,7 +462,7 @@ class Search:
             self._taken_apart.add(key)
             base, values = whole.model.split(whole.parameters)
             jobs = []
-            for kept in _parts(causes):
+            for kept in parts_of(causes):
                 part = list(compress(values, kept))
                 model = whole.model.with_causes(cause for cause, _ in part)
                 jobs.append((model, model.parameters(base, *(own for _, own in part))))
@@ -497,15 +481,15 @@ class Search:
         far behind the leader, as its parts are, is not worth the time: it goes at once.
         """
         leading = self.ranked()[:1]
-        least_standing = _standing(leading[0]) - SEARCH.hopeless if leading else -np.inf
-        near = [hypothesis.refit.keys for hypothesis in self.found[1:] if _standing(hypothesis) > least_standing]
+        least_standing = leading[0].standing - SEARCH.hopeless if leading else -np.inf
+        near = [hypothesis.refit.keys for hypothesis in self.found[1:] if hypothesis.standing > least_standing]
         hopeful = [any(keys <= hypothesis.refit.keys for keys in near) for hypothesis in self.found[1:]]
         before = [hypothesis.refit for hypothesis in compress(self.found[1:], hopeful)]
         after = self._not_above_their_parts(before)
         moved = {id(old): new for old, new in zip(before, after, strict=True) if new is not old}
         kept = [hypothesis for hypothesis in self.found[1:] if id(hypothesis.refit) not in moved]
         hypotheses = [*kept, *self._judged(moved.values())]
-        least = _least_of_each(hypothesis.refit for hypothesis in hypotheses)
+        least = least_of_each(hypothesis.refit for hypothesis in hypotheses)
         self.found = self.found[:1]
         for hypothesis in hypotheses:
             parts = [other.chi_square for keys, other in least.items() if keys < hypothesis.refit.keys]
@@ -529,7 +513,7 @@ class Search:
         A limit is a force, and specimens have sections of their own. Of each effect the form that leaves least.
         """
         views, jobs = self.base.model.views, []
-        for single in _least_of_each_effect(_of_one_cause(refits), 0):
+        for single in least_of_each_effect(of_one_cause(refits), 0):
             cause = single.model.causes[0]
             of_the_force = cause.form.recorded_stress is not None and "one" in cause.effect.placements(cause.form)
             alike = cause.records is None and len(views) > 1
@@ -546,18 +530,16 @@ class Search:
         known = [name for name in leading.effects if name in alone]
         if len(leading.effects) < 2 or not known:
             return
-        first = max(known, key=lambda name: _standing(alone[name]))
-        least = _standing(alone[first]) - SEARCH.hopeless
+        first = max(known, key=lambda name: alone[name].standing)
+        least = alone[first].standing - SEARCH.hopeless
         near = [
-            hypothesis
-            for hypothesis in self.found[1:]
-            if len(hypothesis.effects) == 1 and _standing(hypothesis) > least
+            hypothesis for hypothesis in self.found[1:] if len(hypothesis.effects) == 1 and hypothesis.standing > least
         ]
         rivals = [hypothesis for hypothesis in near if hypothesis.effects[0] not in leading.effects]
         base, values = leading.refit.model.split(leading.refit.parameters)
         rest = [(cause, own) for cause, own in values if cause.effect.name != first]
         tried, jobs = {hypothesis.refit.keys for hypothesis in self.found}, []
-        for rival in _least_of_each(hypothesis.refit for hypothesis in rivals).values():
+        for rival in least_of_each(hypothesis.refit for hypothesis in rivals).values():
             together = [*rival.model.split(rival.parameters)[1], *rest]
             causes = [cause for cause, _ in together]
             if frozenset(cause_key(cause) for cause in causes) in tried:
@@ -630,7 +612,7 @@ class Search:
         for count in sorted({len(fit.model.causes) for fit in refits}):
             if self.budget.spent():
                 break
-            least = _least_of_each(known)
+            least = least_of_each(known)
             jobs: list[tuple[CampaignModel, FloatArray]] = []
             before: list[Refit] = []
             for whole in refits:
@@ -640,7 +622,7 @@ class Search:
                     (other for keys, other in least.items() if keys < whole.keys), key=lambda other: other.chi_square
                 )
                 if whole.chi_square > part.chi_square + SEARCH.settled:
-                    jobs.append((whole.model, _with_others_absent(whole, part)))
+                    jobs.append((whole.model, with_others_absent(whole, part)))
                     before.append(whole)
             # A single effect that leaves more than none has lost the race: none of it leaves as much as none.
             lower = {id(fit.model): fit for fit in self._solved(jobs, steps if count > 1 else 0)}
@@ -708,181 +690,3 @@ class Search:
 def _score(known: Evidence | str) -> float:
     """Of an unfinished refit; without an answer it stays in the race, and that is said where it is judged."""
     return np.inf if isinstance(known, str) else known.log_evidence
-
-
-def _standing(hypothesis: Hypothesis) -> float:
-    """Evidence, and how probable its forms and places are among those that its effects may have."""
-    return hypothesis.evidence.log_evidence + hypothesis.log_share
-
-
-def _acts_in_several(hypothesis: Hypothesis) -> bool:
-    """Whether an effect of it acts in several records, in each by itself."""
-    return len(hypothesis.causes) > len(hypothesis.effects)
-
-
-def _parts(causes: Sequence[Cause]) -> list[tuple[bool, ...]]:
-    """Which causes parts of an explanation keep: any of its effects, or all causes but one."""
-    names = list(dict.fromkeys(cause.effect.name for cause in causes))
-    effects = [dict(zip(names, kept, strict=True)) for kept in product((True, False), repeat=len(names))]
-    parts = [tuple(kept[cause.effect.name] for cause in causes) for kept in effects]
-    parts += [tuple(other is not cause for other in causes) for cause in causes]
-    return [kept for kept in dict.fromkeys(parts) if any(kept) and not all(kept)]
-
-
-def _of_one_cause(refits: Iterable[Refit]) -> list[Refit]:
-    """Refits of one cause, not of an effect that acts in several records."""
-    return [fit for fit in refits if len(fit.model.causes) == 1]
-
-
-def _least_of_each(refits: Iterable[Refit]) -> dict[frozenset[Key], Refit]:
-    """Of each set of causes the refit that leaves least."""
-    least: dict[frozenset[Key], Refit] = {}
-    for fit in refits:
-        keys = fit.keys
-        if keys not in least or fit.chi_square < least[keys].chi_square:
-            least[keys] = fit
-    return least
-
-
-def _with_others_absent(whole: Refit, part: Refit) -> FloatArray:
-    """Parameters of the whole at the optimum of a part of its causes: the others' amplitudes are zero."""
-    base, values = part.model.split(part.parameters)
-    known = {cause_key(cause): own for cause, own in values}
-    others = whole.model.split(whole.parameters)[1]
-    return whole.model.parameters(base, *(known.get(cause_key(cause), (0.0, *own[1:])) for cause, own in others))
-
-
-def _first_of_each(candidates: Sequence[Candidate]) -> list[Candidate]:
-    """The best start of every form and placement; of placements in one record the best few."""
-    chosen: list[Candidate] = []
-    seen: set[Key] = set()
-    alone: dict[tuple[str, str], int] = {}
-    for candidate in candidates:
-        key = cause_key(candidate.cause)
-        if key in seen:
-            continue
-        if candidate.cause.records is not None:
-            if alone.get(key[:2], 0) >= SEARCH.places:
-                continue
-            alone[key[:2]] = alone.get(key[:2], 0) + 1
-        seen.add(key)
-        chosen.append(candidate)
-    return chosen
-
-
-def _alone(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
-    """Each to be added by itself."""
-    return [(candidate,) for candidate in candidates]
-
-
-def _in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
-    """Of each effect its starts in all records where it gains: what acts in several is not quite alike in them.
-
-    Specimens have sections of their own, and a slip its own instant. So each record has its own best start, and its own
-    best smooth one: a step is far from what takes its time. And once more all have the same form from the same values,
-    those that gain most together: a start that is best in one record by itself may be far from what acts there.
-    """
-    best: dict[tuple[str, bool], dict[tuple[str, ...], Candidate]] = {}
-    alike: dict[tuple[str, str, tuple[float, ...]], dict[tuple[str, ...], Candidate]] = {}
-    for candidate in candidates:
-        cause = candidate.cause
-        if not cause.form.several:
-            continue
-        if candidate.base is None and cause.records is not None and candidate.gain > SEARCH.worth_refitting:
-            for smooth in {False, cause.form.sharp is None}:
-                best.setdefault((cause.effect.name, smooth), {}).setdefault(cause.records, candidate)
-            start = cause.effect.name, cause.form.name, candidate.values[1:]
-            alike.setdefault(start, {}).setdefault(cause.records, candidate)
-    groups: list[tuple[Candidate, ...]] = []
-    for (name, smooth), own in best.items():
-        starts = [tuple(places.values()) for (effect, *_), places in alike.items() if effect == name]
-        for together in (tuple(own.values()), *([] if smooth else [max(starts, key=_gain)])):
-            if len(together) > 1 and together not in groups:
-                groups.append(together)
-    return groups
-
-
-def _promising_in_several(candidates: Sequence[Candidate]) -> list[tuple[Candidate, ...]]:
-    """Those in several records that together gain more than their effect does in one size, or in one record.
-
-    They are no further behind than a promising single one.
-    """
-    least = _least_promising(candidates)
-    alone: dict[str, float] = {}
-    for candidate in candidates:
-        alone.setdefault(candidate.cause.effect.name, candidate.gain)
-    return [
-        together
-        for together in _in_several(candidates)
-        if _gain(together) >= max(least, alone[together[0].cause.effect.name])
-    ]
-
-
-def _gain(together: Sequence[Candidate]) -> float:
-    """What candidates in different records gain, each by itself: about what they gain together."""
-    return sum(candidate.gain for candidate in together)
-
-
-def _hidden(single: Refit) -> tuple[str, tuple[str, ...] | None] | None:
-    """By which faults a single cause may be hidden, and where it acts; None if by none."""
-    cause = single.model.causes[-1]
-    return None if cause.form.hidden_by is None else (cause.form.hidden_by, cause.records)
-
-
-def _placed(refit: Refit) -> frozenset[tuple[str, tuple[str, ...] | None]]:
-    """The effect of a refit, and where it acts."""
-    return frozenset((cause.effect.name, cause.records) for cause in refit.model.causes)
-
-
-def _promising(candidates: Sequence[Candidate]) -> list[Candidate]:
-    """Those whose linearised gain is not hopelessly below the best one's.
-
-    Of a weak gap the linearised model says all; of a strong one it says at least where a search would not even begin.
-    """
-    least = _least_promising(candidates)
-    return [candidate for candidate in candidates if candidate.gain >= least and candidate.gain > 0.0]
-
-
-def _least_promising(candidates: Sequence[Candidate]) -> float:
-    best = max((candidate.gain for candidate in candidates), default=0.0)
-    strong = best / (best + SEARCH.strong_gap) if best > 0.0 else 0.0
-    return best - max(SEARCH.race_gain, (1.0 - SEARCH.race_fraction) * strong * best)
-
-
-def _others(candidates: Sequence[Candidate], first: Sequence[Candidate], count: int) -> list[Candidate]:
-    """Further starts of the same causes."""
-    given = {id(candidate) for candidate in first}
-    wanted = {cause_key(candidate.cause) for candidate in first}
-    many: dict[Key, int] = {}
-    further = []
-    for candidate in candidates:
-        key = cause_key(candidate.cause)
-        if id(candidate) in given or key not in wanted or many.get(key, 0) >= count:
-            continue
-        many[key] = many.get(key, 0) + 1
-        further.append(candidate)
-    return further
-
-
-def _forms_of_the_best(candidates: Sequence[Candidate], count: int) -> list[Candidate]:
-    """The best start of every form of each of the best effects; in all records and in one count apart."""
-    effects = list(
-        dict.fromkeys((candidate.cause.effect.name, candidate.cause.records is None) for candidate in candidates)
-    )[:count]
-    best: dict[tuple[str, bool, str], Candidate] = {}
-    for candidate in candidates:
-        effect = candidate.cause.effect.name, candidate.cause.records is None
-        if effect in effects:
-            best.setdefault((*effect, candidate.cause.form.name), candidate)
-    return list(best.values())
-
-
-def _least_of_each_effect(refits: Sequence[Refit], before: int) -> list[Refit]:
-    """Of the forms of each effect that was added to `before` causes, the one that leaves least; in several apart."""
-    least: dict[tuple[str, bool, bool], Refit] = {}
-    for fit in refits:
-        added = fit.model.causes[before:]
-        key = added[0].effect.name, added[0].records is None, len(added) > 1
-        if key not in least or fit.chi_square < least[key].chi_square:
-            least[key] = fit
-    return list(least.values())
