@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from probation.detection.hidden_steps import without_hidden_steps
 from probation.detection.lines_and_steps import find_lines, without_steps
 from probation.detection.strain_periodic import along, find_strain_periodic, shown
 from probation.detection.without_lines import without_wave
@@ -35,7 +36,8 @@ def without_sharp(records: Sequence[RecordResidual]) -> Whitened:
     They are taken out one by one in every record, as long as that does not raise its noise: a transient has a peak in
     its periodogram, too, and a wave in its place disturbs the rest of the record. Lines in time come first. What is
     periodic in the strain has to lower the noise by much: a part of a gap that is not periodic may look so. Steps come
-    last: teeth that recur are steps, too.
+    last: teeth that recur are steps, too. Several of them hide each other, and are taken out
+    together; that, too, has to lower the noise by much.
 
     Parameters
     ----------
@@ -46,6 +48,7 @@ def without_sharp(records: Sequence[RecordResidual]) -> Whitened:
     for strongest, most_left in (
         (_lines, 1.0),
         (_strain_periodic, DETECTION.noise_without_strain_period),
+        (without_hidden_steps, DETECTION.noise_without_hidden_steps),
         (_steps, 1.0),
     ):
         whitened = _one_by_one(whitened, strongest, most_left, known)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
@@ -218,6 +218,10 @@ class Form:
         size = amplitude.scale if np.isfinite(amplitude.scale) else amplitude.upper
         nonlinear = (parameter.starts[0] if parameter.starts else parameter.centre for parameter in self.parameters[1:])
         return (min(size, amplitude.upper), *nonlinear)
+
+    def measured_section(self) -> Form:
+        """The same where the true stress was not made with the recorded strain, but with a section measured apart."""
+        return replace(self, name=f"{self.name}_measured_section", converts=False, variant=True)
 
     @property
     def needs_solve(self) -> bool:

@@ -128,6 +128,21 @@ class DetectionSettings:
         "noise",
         "Noise, over that before, that may be left where a strain period is taken out: a screw leaves a tenth.",
     )
+    mostly_quieter: float = chosen(
+        0.5,
+        "-",
+        "Median difference of neighbouring samples, over what the noise has it, below which several steps may have "
+        "made that noise.",
+    )
+    sharp_difference: float = chosen(
+        6.0,
+        "standard deviations",
+        "Difference of neighbouring samples, over what the median one tells, from which on it is one of these steps.",
+    )
+    most_hidden_steps: int = chosen(12, "steps", "So many of these are taken out of a record at most.")
+    noise_without_hidden_steps: float = chosen(
+        0.5, "noise", "Noise, over that before, that may be left without all of them."
+    )
     samples_per_harmonic: int = chosen(
         80,
         "samples",

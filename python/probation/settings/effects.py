@@ -40,6 +40,11 @@ class EffectsSettings:
     take_up_starts: tuple[float, ...] = chosen(
         (0.02, 0.2), "largest force", "Parts of the force that takes up slack, or pulls a bent strip straight."
     )
+    sharp_fall: float = chosen(
+        8.0,
+        "standard deviations",
+        "Fall of the force from sample to sample, over what the median difference tells, that a slip makes.",
+    )
     large_hysteresis: float = chosen(
         0.1, "largest force", "Standard deviation of a gross hysteresis: a guide or a joint of the load train rubs."
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.falls import falls_of
 from probation.effects.instants import INSTANT, likely_instants, passed
 
 if TYPE_CHECKING:
@@ -70,6 +71,21 @@ def _progressive(view: RecordView, values: Values) -> FloatArray:
     return view.true_strain - values[0] * np.maximum(pull - values[1], 0.0)
 
 
+def _slips(view: RecordView, values: Values) -> FloatArray:
+    """With every sudden fall of the force the specimen loses a per MPa of it."""
+    lost = [fall.size * passed(view, fall.instant) for fall in falls_of(view)]
+    return np.asarray(view.true_strain - values[0] * np.sum(lost, axis=0))
+
+
+def _slips_again(views: Sequence[RecordView]) -> bool:
+    """One fall has forms of its own."""
+    return any(len(falls_of(view)) > 1 for view in views)
+
+
+def _where_it_slips(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    return [()] if _slips_again(views) else []
+
+
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """A tenth, three and six tenths of the largest nominal stress [MPa]: more holds nearly all along the record."""
     largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
@@ -80,15 +96,25 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
     return [(instant, duration) for instant in likely_instants(views, residuals) for duration in _DURATIONS]
 
 
+_SEVERAL = Form(
+    "several",
+    (EffectParameter("slip_per_fall", "1/MPa", 0.0, 0.2, 1e-3, "what falls by 1 MPa has lost that over E_u"),),
+    driving_strain=_slips,
+    starts=_where_it_slips,
+    placements=("one",),
+    needs=_slips_again,
+    variant=True,
+)
+
 EFFECT = Effect(
     name="grip_slip",
     title="slip in the grips",
     physics=(
-        "The specimen slips in its grips at some instant, and its strain jumps back, the recorded one does not; or it "
-        "creeps out of them from some instant on; or it gives way little by little beyond the pull that friction "
-        "holds.\n"
-        "Amplitude: recorded strain that is lost (per stress beyond what holds). The true stress was made of it, or "
-        "measured apart."
+        "The specimen slips in its grips at some instant, or whenever the force falls suddenly, and its strain jumps "
+        "back, the recorded one does not; or it creeps out of them from some instant on; or it gives way little by "
+        "little beyond the pull that friction holds.\n"
+        "Amplitude: recorded strain that is lost (per stress beyond what holds, or that falls). The true stress was "
+        "made of it, or measured apart."
     ),
     source=(
         "ISO 527-1, section 5.1.3 (grips); Coulomb 1785 (friction holds up to a pull); Heslot et al. 1994, Phys. "
@@ -107,6 +133,8 @@ EFFECT = Effect(
             placements=("one",),
             sharp="step",
         ),
+        _SEVERAL,
+        _SEVERAL.measured_section(),
         Form(
             "creeping",
             (

@@ -29,6 +29,8 @@ def _bending(view: RecordView, values: Values) -> FloatArray:
 
 _SIZE = "gauge lengths and extensometers to 1 or 2 %, dumb-bells and clips on soft strips to some per cent"
 
+_FACTOR = Form("factor", (EffectParameter("strain_gain_error", "", -0.5, 0.5, 0.02, _SIZE),), driving_strain=_factor)
+
 EFFECT = Effect(
     name="strain_gain",
     title="gain of the strain",
@@ -36,13 +38,14 @@ EFFECT = Effect(
         "The gauge length is not what was typed in, the extensometer's sensitivity is wrong by a factor, or its "
         "characteristic bends; so does the effective gauge length of a dumb-bell.\n"
         "Amplitude: relative excess of the recorded elongation, or at its largest. In all records alike a factor is "
-        "near one of E_u and G."
+        "near one of E_u and G. The true stress was made of it, or measured apart."
     ),
     source="ISO 9513 (extensometers); ISO 527-1 (gauge length); ASTM D638 (dumb-bells)",
     shows_in="one record compared with others: it begins with another slope and flows at the same stress",
     kind="rig",
     forms=(
-        Form("factor", (EffectParameter("strain_gain_error", "", -0.5, 0.5, 0.02, _SIZE),), driving_strain=_factor),
+        _FACTOR,
+        _FACTOR.measured_section(),
         Form(
             "bending",
             (

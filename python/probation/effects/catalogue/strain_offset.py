@@ -98,6 +98,38 @@ def _durations(views: Sequence[RecordView], residuals: Sequence[FloatArray] | No
     return [(_TIME.inside(time),) for time in (0.1 * min(durations), 0.5 * max(durations))]
 
 
+_TAKEN_UP_OR_ZEROED = (
+    Form(
+        "slack",
+        (EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),),
+        driving_strain=_slack,
+    ),
+    Form(
+        "toe",
+        (
+            EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),
+            EffectParameter(
+                name="take_up_strain",
+                unit="",
+                lower=0.001,
+                upper=0.5,
+                centre=0.02,
+                scale=0.8,
+                log=True,
+                starts=(0.01, 0.04),
+                reason="grips bite and specimens straighten over some times the slack",
+            ),
+        ),
+        driving_strain=_toe,
+    ),
+    Form(
+        "shift",
+        (EffectParameter("strain_zero_error", "", -0.2, 0.2, 0.005, "some tenths of a per cent"),),
+        driving_strain=_shift,
+    ),
+)
+
+
 EFFECT = Effect(
     name="strain_offset",
     title="offset of the strain",
@@ -105,7 +137,7 @@ EFFECT = Effect(
         "Slack in the load train is recorded as strain (toe), the strain was zeroed at the wrong length or its zero "
         "creeps while a camera warms up, or one face of a bent or misaligned strip was measured while it was pulled "
         "straight.\n"
-        "Amplitude: recorded strain that the specimen did not see."
+        "Amplitude: recorded strain that the specimen did not see. The true stress was made of it, or measured apart."
     ),
     source=(
         "ASTM D638, annex A1 (toe compensation); Timoshenko & Gere 1961, Theory of Elastic Stability, section 1.12 "
@@ -114,34 +146,8 @@ EFFECT = Effect(
     shows_in="the onset of a record and, at zero load, its unloading; a wrong zero only bends the hardening",
     kind="rig",
     forms=(
-        Form(
-            "slack",
-            (EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),),
-            driving_strain=_slack,
-        ),
-        Form(
-            "toe",
-            (
-                EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),
-                EffectParameter(
-                    name="take_up_strain",
-                    unit="",
-                    lower=0.001,
-                    upper=0.5,
-                    centre=0.02,
-                    scale=0.8,
-                    log=True,
-                    starts=(0.01, 0.04),
-                    reason="grips bite and specimens straighten over some times the slack",
-                ),
-            ),
-            driving_strain=_toe,
-        ),
-        Form(
-            "shift",
-            (EffectParameter("strain_zero_error", "", -0.2, 0.2, 0.005, "some tenths of a per cent"),),
-            driving_strain=_shift,
-        ),
+        *_TAKEN_UP_OR_ZEROED,
+        *(form.measured_section() for form in _TAKEN_UP_OR_ZEROED),
         Form(
             "settling",
             (EffectParameter("settled_strain", "", -0.2, 0.2, 0.005, "some tenths of a per cent"), _TIME),
