@@ -175,10 +175,15 @@ def _cause(
         return _nothing_near(explanations, answer_set, shrink, record_count, nothing, worse)
     if verdict == "unexplained" and cut:
         return f"{nothing}; with {titles(parts.named)}{place} {fall}"
+    if verdict == "unexplained" and _hardly(best, parts, identify):
+        return f"{nothing}; {_with(explanations, shrink, record_count, worse, comes_nearest=True)}"
     named, rivals = f"{_with_shares(parts)}{place}", _rivals_of(parts.named, answer_set)
     fall += _not_divided(parts, identify)
     if verdict == "unexplained":
-        return _is_part(best, parts, named, fall, _indistinct(parts.named, rivals), identify.noise_MPa)
+        far = [each.effects for each in explanations if each.effects in rivals and _far_behind(each, best)]
+        indistinct = _indistinct(parts.named, [effects for effects in rivals if effects not in far])
+        part = _is_part(best, parts, named, fall, indistinct, identify.noise_MPa)
+        return part + _of_other_forms(far, "still more")
     behind = [each.effects for each in explanations if each.effects in rivals and _leaves_more(each)]
     near = [effects for effects in rivals if effects not in behind]
     others = _indistinct(parts.named, near) + _of_other_forms(behind)
@@ -243,12 +248,25 @@ def _leaves_more(each: Explanation) -> bool:
     return each.checks is not None and each.checks.remaining_p_value < DETECTION.gap_level
 
 
-def _of_other_forms(behind: Sequence[tuple[str, ...]]) -> str:
-    """What is not excluded though it leaves a gap, as a further clause; empty where there is none."""
+def _hardly(best: Explanation, parts: Attribution, identify: Closure) -> bool:
+    """Whether known effects that are improbable close less than half of the gap: they are none of its causes."""
+    closes = identify.closure is not None and identify.closure < EVIDENCE.half_of_the_gap
+    return closes and parts.probability < EVIDENCE.half_of_the_gap and UNKNOWN not in best.effects
+
+
+def _far_behind(each: Explanation, best: Explanation) -> bool:
+    """Whether the records say so much less of it that they do distinguish it; its form may be wrong."""
+    if each.log_evidence is None or best.log_evidence is None:
+        return False
+    return each.log_evidence < best.log_evidence - EVIDENCE.far_behind
+
+
+def _of_other_forms(behind: Sequence[tuple[str, ...]], more: str = "more than noise") -> str:
+    """What is not excluded though it leaves more, as a further clause; empty where there is none."""
     if not behind:
         return ""
     shown = choices(behind[:MOST_RIVALS])
-    return f"; not excluded, though more than noise would be left: {shown}{_more(behind)}"
+    return f"; not excluded, though {more} would be left: {shown}{_more(behind)}"
 
 
 def _indistinct(known: Sequence[str], rivals: Sequence[tuple[str, ...]]) -> str:
@@ -288,12 +306,19 @@ def _close_some(parts: Attribution, identify: Closure) -> bool:
     return share >= EVIDENCE.share_worth_naming and parts.after_MPa < identify.before_MPa
 
 
-def _with(explanations: Sequence[Explanation], shrink: Shrink, count: int, worse: Sequence[Worse]) -> str:
+def _with(
+    explanations: Sequence[Explanation],
+    shrink: Shrink,
+    count: int,
+    worse: Sequence[Worse],
+    *,
+    comes_nearest: bool = False,
+) -> str:
     """How far the gap would shrink, and which held-out records contradict that."""
     identify = shrink.identify
     shown = with_known(shrink.effects, explanations)
     nearest = ""
-    if explanations[0].effects == (UNKNOWN,):
+    if comes_nearest or explanations[0].effects == (UNKNOWN,):
         nearest = f", which {'comes' if len(shrink.effects) == 1 else 'come'} nearest,"
     misfit = change(identify.before_MPa, identify.after_MPa, "would ")
     text = f"with {titles(shrink.effects)}{_place(shown.records, count)}{nearest} the misfit {misfit}"

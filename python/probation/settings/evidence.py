@@ -165,6 +165,16 @@ class EvidenceSettings:
     share_worth_naming: float = chosen(
         0.01, "-", "Part of the gap below which an effect is not named jointly with those that close the rest."
     )
+    half_of_the_gap: float = chosen(
+        0.5,
+        "-",
+        "An explanation less probable than that, which closes less than that part, is named as what comes nearest.",
+    )
+    far_behind: float = chosen(
+        100.0,
+        "log evidence",
+        "So far behind an explanation that leaves a gap, another is not one that the tests cannot distinguish from it.",
+    )
     nearly_all: float = chosen(
         0.9,
         "-",
