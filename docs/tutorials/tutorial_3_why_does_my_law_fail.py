@@ -187,8 +187,8 @@ print(fewer.next_tests[0].what)
 for explanation in fewer.explanations[:3]:
     print(f"{explanation.probability:5.0%}  {' + '.join(explanation.effects)}")
 
-# >   53%  self_heating
-# >   26%  damage
+# >   51%  self_heating
+# >   28%  damage
 # >    6%  unknown
 
 # %%

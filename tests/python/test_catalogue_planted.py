@@ -365,6 +365,52 @@ def test_slips_in_every_test_at_instants_of_their_own(width):
     assert found.best.records == ("at-0.006", "at-0.008", "at-0.014")
 
 
+@pytest.mark.parametrize("stated", [True, False])
+def test_a_specimen_that_slips_again_and_again(stated):
+    """Five times in one test: not one slip, and no noise of 0.3 MPa, which it was until then."""
+    sizes, parts = (0.002, 0.003, 0.0015, 0.0025, 0.002), (0.2, 0.35, 0.5, 0.66, 0.85)
+
+    def slipped(index, time, strain):
+        gone = sum(size * (time > part * time[-1]) for size, part in zip(sizes, parts, strict=True))
+        gone = gone if index == 1 else 0.0 * strain
+        return np.exp(gone) * LAW.stress(time, strain - gone)
+
+    planted = ramps(slipped)
+    if not stated:
+        planted = campaign(replace(each, noise=Noise()) for each in planted.records)
+    found = named(planted, "grip_slip")
+    assert found.best.records == (planted.records[1].id,)
+    assert found.best.forms[0].startswith("several")
+
+
+@pytest.mark.parametrize("size", [0.019, -0.035])
+def test_a_strain_that_is_zeroed_wrongly_where_the_section_was_measured_apart(size):
+    """The true stress is right. Taken for one that was made with the recorded strain, it accused the load cell."""
+
+    def zeroed(law, time, strain):
+        return law.stress(time, strain - size * (time[-1] > 300.0))
+
+    found = named(loops(zeroed), "strain_offset")
+    assert found.best.forms == ("shift_measured_section",)
+    assert found.best.records == ("at-0.002",)
+    assert value(found, "strain_zero_error") == pytest.approx(size, rel=0.03)
+
+
+def test_damage_that_ends_early_by_the_work_that_was_done():
+    """No strain tells it: the work at a strain differs by a factor of three from rate to rate."""
+
+    def damaged(index, time, strain):
+        area, stress = np.ones(len(strain)), LAW.stress(time, strain)
+        for _ in range(30):  # of what the damaged section carries
+            done = cumulative_trapezoid(area * stress, strain, initial=0.0)
+            area = 1.0 - 0.05 * (-np.expm1(-done / 6.0))
+        return area * stress
+
+    found = named(ramps(damaged), "damage")
+    assert found.best.forms == ("by_work",)
+    assert value(found, "saturation_work_MPa") == pytest.approx(6.0, rel=0.1)
+
+
 def softly_ending(stress, strain, end):
     """The reading is F_c (1 - exp(-(F / F_c)^6))^(1/6), F the force per initial section and F_c its `end`."""
     used = np.maximum(stress * np.exp(-strain) / end, 1e-12)

@@ -86,19 +86,21 @@ def record(name, pieces, samples=150, law=LAW, seed=1, rated=False):
 def campaign():
     """A slow ramp, a fast one up and down, a rate jump with a dwell whose rates are given; each has a temperature.
 
-    The fast one warms, its volume grows, and its strip buckles on the way back.
+    The fast one warms, its volume grows, it slips twice, and its strip buckles on the way back.
     """
     slow = record("slow", [(300.0, 0.9)])
     fast = record("fast", [(100.0, 1.4), (20.0, 1.2)], seed=2)
     jump = record("jump", [(60.0, 0.3), (30.0, 0.3), (30.0, 0.9)], seed=3, rated=True)
     warming = 23.0 + 12.0 * fast.true_strain / 1.4
+    since = fast.time[:, None] - [40.0, 70.0]
+    fallen = np.where(since > 0.0, 2.0 * np.exp(-np.maximum(since, 0.0) / 8.0), 0.0).sum(axis=1)
     return probation.Campaign(
         name="three",
         records=(
             replace(slow, temperature=np.full(len(slow), 18.0)),
             replace(
                 fast,
-                true_stress=np.maximum(fast.true_stress, -0.1),
+                true_stress=np.maximum(fast.true_stress - fallen, -0.1),
                 temperature=warming,
                 transverse_strain=-0.45 * fast.true_strain,
             ),

@@ -145,6 +145,26 @@ def test_a_slip_from_which_the_stress_recovers_is_no_noise(lasts):
         assert [noise.sigma for noise in found] == pytest.approx([0.04] * 6, rel=0.15)
 
 
+@pytest.mark.parametrize("count", [3, 7])
+def test_several_slips_from_which_the_stress_recovers_are_no_noise(count):
+    """Together they are half of a record; each recovers in two times, as a spectrum of modes does."""
+    since = np.arange(500) - np.linspace(60, 430, count).astype(int)[:, None]
+    each = 1.6 * np.exp(-np.maximum(since, 0) / 2.0) + 0.9 * np.exp(-np.maximum(since, 0) / 12.0)
+    slips = np.where(since >= 0, each, 0.0).sum(axis=0)
+    found = without_sharp(gap_noise.records("white", rng(11), 500, [slips, *[0.0 * slips] * 5])).noises
+    assert [noise.sigma for noise in found] == pytest.approx([0.04] * 6, rel=0.15)
+
+
+def test_bursts_of_noise_stay_noise():
+    """Ten times as large for forty samples, three times in a record: nothing in them recovers from a step."""
+    plain = gap_noise.records("white", rng(12), 500)
+    burst = np.zeros(500)
+    for first in (80, 230, 380):
+        burst[first : first + 40] = 0.4 * rng(first).standard_normal(40)
+    loud = [replace(plain[0], residual=plain[0].residual + burst), *plain[1:]]
+    assert without_sharp(loud).noises[0].sigma == pytest.approx(estimate_noise(loud)[0].sigma, rel=0.05)
+
+
 def test_a_toe_with_an_edge_is_no_noise():
     """A strip that is pulled straight ends its toe between two samples: what no smooth curve takes is in one place."""
     at = np.arange(500)

@@ -63,6 +63,18 @@ def _by_stress(view: RecordView, values: Values) -> Modification:
     return Modification(load_bearing_area=left ** (1.0 / (exponent + 1.0)))
 
 
+def _by_work(view: RecordView, values: Values) -> Modification:
+    """Area e^(-a (1 - e^(-w / w_c))), w the work of the recorded stress per volume so far, where strain is new."""
+    return Modification(load_bearing_area=np.exp(values[0] * np.expm1(-_work(view) / values[1])))
+
+
+def _work(view: RecordView) -> FloatArray:
+    """Of straining further than ever, shape (n,) [MPa]."""
+    stress = np.maximum(view.smooth_true_data, 0.0)
+    further = np.diff(view.largest_strain)
+    return np.append(0.0, np.cumsum(0.5 * (stress[1:] + stress[:-1]) * further))
+
+
 _LOSS = EffectParameter("area_loss", "", 0.0, 0.95, 0.2, _REASON)
 _THRESHOLD = EffectParameter(
     name="threshold_strain",
@@ -92,6 +104,24 @@ def _thresholds(views: Sequence[RecordView], residuals: Sequence[FloatArray] | N
     return [(_THRESHOLD.inside(part * largest), _GROWTH.inside(0.3 * largest)) for part in (0.1, 0.3, 0.5, 0.7)]
 
 
+_WORK = EffectParameter(
+    name="saturation_work_MPa",
+    unit="MPa",
+    lower=0.05,
+    upper=500.0,
+    centre=10.0,
+    scale=1.5,
+    log=True,
+    reason="work to yield is 1 MPa, to fibrils some tens",
+)
+
+
+def _works(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """A fifth of the largest work, and all of it."""
+    largest = max(float(_work(view)[-1]) for view in views)
+    return [(_WORK.inside(part * largest),) for part in (0.2, 1.0)]
+
+
 EFFECT = Effect(
     name="damage",
     title="damage",
@@ -101,8 +131,8 @@ EFFECT = Effect(
         "a strain); that per strain under 20 MPa (by stress)."
     ),
     source=(
-        "Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Mazars & Pijaudier-Cabot 1989, J. Eng. Mech. "
-        "115, 345; Detrez et al. 2011, Polymer 52, 1998"
+        "Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Simo & Ju 1987, Int. J. Solids Struct. 23, "
+        "821 (by work); Mazars & Pijaudier-Cabot 1989, J. Eng. Mech. 115, 345; Detrez et al. 2011, Polymer 52, 1998"
     ),
     shows_in="records reaching large strains; unloading shows it best: it stays",
     kind="material",
@@ -178,6 +208,13 @@ EFFECT = Effect(
             (_LOSS, _THRESHOLD, _GROWTH),
             modification=_beyond_a_strain,
             starts=_thresholds,
+            variant=True,
+        ),
+        Form(
+            "by_work",
+            (EffectParameter("log_area_loss", "", 0.0, 2.0, 0.2, _REASON), _WORK),
+            modification=_by_work,
+            starts=_works,
             variant=True,
         ),
         Form(

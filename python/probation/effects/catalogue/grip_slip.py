@@ -98,7 +98,7 @@ def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None)
 
 _SEVERAL = Form(
     "several",
-    (EffectParameter("slip_per_fall", "1/MPa", 0.0, 0.2, 1e-3, "what falls by 1 MPa has lost that over E_u"),),
+    (EffectParameter("slip_per_MPa", "1/MPa", 0.0, 0.2, 1e-3, "what falls by 1 MPa has lost that over E_u"),),
     driving_strain=_slips,
     starts=_where_it_slips,
     placements=("one",),
