@@ -271,7 +271,7 @@ def test_variants_of_a_form_are_for_the_search_and_not_for_the_test_for_a_gap():
     made = campaign(0)
     base = base_fit(made, plain_fit(made, "sa3", None)).screened(chosen)
     variants = {form.name for each in chosen for form in each.forms if form.variant}
-    assert variants == {"beyond_a_strain", "by_stress", "logarithmic", "settling"}
+    assert variants == {"beyond_a_strain", "by_stress", "by_work", "logarithmic", "settling"}
     assert variants.isdisjoint(column.cause.form.name for column in base.signals)
     sought = {candidate.cause.form.name for candidate in Search(base, chosen).candidates()}
     assert sought == {form.name for each in chosen for form in each.forms}
