@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from campaigns.few_records import CORNERS, NOISE, damage, few_records, offset
-from probation import InputError
+from probation import InputError, Noise
 from probation.diagnosis.diagnose import diagnose
 from probation.law.settings import LawSettings
 
@@ -184,6 +184,18 @@ def test_each_record_is_weighed_by_its_own_noise(fault):
         assert found.verdict == "no_gap"
     else:
         assert (found.verdict, found.best.effects, found.best.records) == ("explained", ("force_offset",), ("slow",))
+
+
+def test_noise_that_is_larger_than_stated_is_told():
+    """Of the one record of which it is; the larger one counts."""
+    plain = few_records(None)
+    stated = {"slow": NOISE, "middle": NOISE / 3.0}
+    records = tuple(replace(each, noise=Noise(stated.get(each.id))) for each in plain.records)
+    found = diagnosed(replace(plain, records=records))
+    told = [warning for warning in found.warnings if "as stated" in warning]
+    assert len(told) == 1
+    assert told[0].startswith("middle: the noise of the stress is 0.0")
+    assert told[0].endswith("as stated; the larger one counts")
 
 
 def test_the_schemes_own_error_is_not_taken_for_an_effect():

@@ -390,7 +390,13 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
         warnings.append(
             "one record only: nothing can be left out, and a cause that acts alike in it cannot be discriminated"
         )
-    for noise in base.whitened.noises:
+    for view, noise in zip(base.model.views, base.whitened.noises, strict=True):
+        stated = view.record.noise.stress_MPa
+        if stated is not None and noise.sigma > NOISE.not_as_stated * stated:
+            warnings.append(
+                f"{noise.name}: the noise of the stress is {noise.sigma:.2g} MPa in the record, {stated:.2g} MPa as "
+                "stated; the larger one counts"
+            )
         if noise.outliers:
             warnings.append(f"{noise.name}: {_outliers_text(len(noise.outliers))}")
     levels = np.array([noise.sigma for noise in base.whitened.noises])

@@ -331,6 +331,9 @@ class NoiseSettings:
         "samples",
         "Samples up to which a record's strain noise has a matrix; that of 3000 takes about 3 s to make and factor.",
     )
+    not_as_stated: float = chosen(
+        1.5, "-", "Estimated over stated noise of the stress from which on a diagnosis says that they differ."
+    )
     tenfold: float = chosen(10.0, "-", "Ratio of the records' noise from which on it is noted.")
 
 
