@@ -383,6 +383,20 @@ def test_a_specimen_that_slips_again_and_again(stated):
     assert found.best.forms[0].startswith("several")
 
 
+def test_an_extensometer_whose_knives_slip():
+    """What it reads jumps three times, either way; the specimen knows nothing of it."""
+    made = []
+    for index, rate in enumerate((6e-3, 8e-3, 1e-2)):
+        time, strain = path(rate, [0.9])
+        jumps = sum(size * (time > part * time[-1]) for size, part in ((0.004, 0.2), (-0.006, 0.45), (0.003, 0.7)))
+        read = strain + jumps if index == 1 else strain
+        made.append(record(f"at-{rate:g}", time, read, LAW.stress(time, strain), index))
+    found = named(campaign(made), "grip_slip")
+    assert found.best.forms == ("knives_measured_section",)
+    assert found.best.records == ("at-0.008",)
+    assert value(found, "part_of_jumps") == pytest.approx(1.0, abs=0.03)
+
+
 @pytest.mark.parametrize("size", [0.019, -0.035])
 def test_a_strain_that_is_zeroed_wrongly_where_the_section_was_measured_apart(size):
     """The true stress is right. Taken for one that was made with the recorded strain, it accused the load cell."""

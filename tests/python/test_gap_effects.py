@@ -86,7 +86,7 @@ def record(name, pieces, samples=150, law=LAW, seed=1, rated=False):
 def campaign():
     """A slow ramp, a fast one up and down, a rate jump with a dwell whose rates are given; each has a temperature.
 
-    The fast one warms, its volume grows, it slips twice, and its strip buckles on the way back.
+    The fast one warms, its volume grows, it and its extensometer slip twice, and its strip buckles on the way back.
     """
     slow = record("slow", [(300.0, 0.9)])
     fast = record("fast", [(100.0, 1.4), (20.0, 1.2)], seed=2)
@@ -100,6 +100,7 @@ def campaign():
             replace(slow, temperature=np.full(len(slow), 18.0)),
             replace(
                 fast,
+                true_strain=fast.true_strain + 0.004 * (fast.time > 20.0) - 0.005 * (fast.time > 90.0),
                 true_stress=np.maximum(fast.true_stress - fallen, -0.1),
                 temperature=warming,
                 transverse_strain=-0.45 * fast.true_strain,

@@ -40,10 +40,13 @@ class EffectsSettings:
     take_up_starts: tuple[float, ...] = chosen(
         (0.02, 0.2), "largest force", "Parts of the force that takes up slack, or pulls a bent strip straight."
     )
-    sharp_fall: float = chosen(
+    sudden: float = chosen(
         8.0,
         "standard deviations",
-        "Fall of the force from sample to sample, over what the median difference tells, that a slip makes.",
+        "Change from sample to sample beyond those beside it, over what the median one tells, that a slip makes.",
+    )
+    least_sudden: float = chosen(
+        0.002, "largest force or strain", "Such a change, at least: records without noise have none of rounding."
     )
     large_hysteresis: float = chosen(
         0.1, "largest force", "Standard deviation of a gross hysteresis: a guide or a joint of the load train rubs."

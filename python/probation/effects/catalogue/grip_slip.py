@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.effects.falls import falls_of
 from probation.effects.instants import INSTANT, likely_instants, passed
+from probation.effects.sudden import falls_of, jumps_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from probation._arrays import FloatArray
+    from probation.effects.effect import NeedsHook, StartsHook
     from probation.effects.record_view import RecordView
 
 _DURATIONS = (0.004, 0.016)
@@ -73,17 +74,26 @@ def _progressive(view: RecordView, values: Values) -> FloatArray:
 
 def _slips(view: RecordView, values: Values) -> FloatArray:
     """With every sudden fall of the force the specimen loses a per MPa of it."""
-    lost = [fall.size * passed(view, fall.instant) for fall in falls_of(view)]
-    return np.asarray(view.true_strain - values[0] * np.sum(lost, axis=0))
+    return np.asarray(view.true_strain - values[0] * falls_of(view.same_data or view).total)
 
 
 def _slips_again(views: Sequence[RecordView]) -> bool:
     """One fall has forms of its own."""
-    return any(len(falls_of(view)) > 1 for view in views)
+    return any(falls_of(view.same_data or view).times > 1 for view in views)
 
 
-def _where_it_slips(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
-    return [()] if _slips_again(views) else []
+def _knives(view: RecordView, values: Values) -> FloatArray:
+    """The knives of an extensometer slip: the specimen saw all but a part a of every sudden jump of the strain."""
+    return np.asarray(view.true_strain - values[0] * jumps_of(view.same_data or view).total)
+
+
+def _knives_slip(views: Sequence[RecordView]) -> bool:
+    return any(jumps_of(view.same_data or view).times > 0 for view in views)
+
+
+def _once_where(happens: NeedsHook) -> StartsHook:
+    """A search begins where it happens, and there is nothing to choose."""
+    return lambda views, _residuals: [()] if happens(views) else []
 
 
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
@@ -100,9 +110,19 @@ _SEVERAL = Form(
     "several",
     (EffectParameter("slip_per_MPa", "1/MPa", 0.0, 0.2, 1e-3, "what falls by 1 MPa has lost that over E_u"),),
     driving_strain=_slips,
-    starts=_where_it_slips,
+    starts=_once_where(_slips_again),
     placements=("one",),
     needs=_slips_again,
+    variant=True,
+)
+
+_KNIVES = Form(
+    "knives",
+    (EffectParameter("part_of_jumps", "", 0.0, 1.5, 1.0, "all of a jump, where the material cannot follow it"),),
+    driving_strain=_knives,
+    starts=_once_where(_knives_slip),
+    placements=("one",),
+    needs=_knives_slip,
     variant=True,
 )
 
@@ -112,9 +132,9 @@ EFFECT = Effect(
     physics=(
         "The specimen slips in its grips at some instant, or whenever the force falls suddenly, and its strain jumps "
         "back, the recorded one does not; or it creeps out of them from some instant on; or it gives way little by "
-        "little beyond the pull that friction holds.\n"
-        "Amplitude: recorded strain that is lost (per stress beyond what holds, or that falls). The true stress was "
-        "made of it, or measured apart."
+        "little beyond the pull that friction holds. Or the knives of an extensometer slip on it.\n"
+        "Amplitude: recorded strain that is lost (per stress beyond what holds, or that falls), or the part of what "
+        "jumps. The true stress was made of it, or measured apart."
     ),
     source=(
         "ISO 527-1, section 5.1.3 (grips); Coulomb 1785 (friction holds up to a pull); Heslot et al. 1994, Phys. "
@@ -135,6 +155,8 @@ EFFECT = Effect(
         ),
         _SEVERAL,
         _SEVERAL.measured_section(),
+        _KNIVES,
+        _KNIVES.measured_section(),
         Form(
             "creeping",
             (
