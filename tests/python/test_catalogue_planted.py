@@ -383,6 +383,22 @@ def test_a_specimen_that_slips_again_and_again(stated):
     assert found.best.forms[0].startswith("several")
 
 
+def test_a_specimen_that_creeps_out_of_its_grips_by_the_pull():
+    """At a rate as the fourth power of the force: mostly where the network hardens."""
+
+    def crept(index, time, strain):
+        gone = np.zeros(len(time))
+        for _ in range(20 if index == 1 else 0):  # of the force that the specimen has
+            stress = LAW.stress(time, strain - gone)
+            rate = (stress * np.exp(-(strain - gone)) / 20.0) ** 4
+            gone = 6e-5 * cumulative_trapezoid(rate, time, initial=0.0)
+        return np.exp(gone) * LAW.stress(time, strain - gone)
+
+    found = named(ramps(crept), "grip_slip")
+    assert found.best.forms == ("creeping_with_pull",)
+    assert value(found, "power_of_pull") == pytest.approx(4.0, rel=0.15)
+
+
 def test_an_extensometer_whose_knives_slip():
     """What it reads jumps three times, either way; the specimen knows nothing of it."""
     made = []

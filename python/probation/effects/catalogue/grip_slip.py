@@ -96,6 +96,14 @@ def _once_where(happens: NeedsHook) -> StartsHook:
     return lambda views, _residuals: [()] if happens(views) else []
 
 
+def _giving(view: RecordView, values: Values) -> FloatArray:
+    """It creeps out at a rate in proportion to a power of the pull, and has lost a when the record ends (Norton)."""
+    pull = np.maximum(view.smooth_nominal_data, 0.0)
+    rate = (pull / max(float(np.max(pull)), 1e-300)) ** values[1]
+    lost = np.append(0.0, np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(view.time)))
+    return np.asarray(view.true_strain - values[0] * lost / max(float(lost[-1]), 1e-300))
+
+
 def _pulls(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """A tenth, three and six tenths of the largest nominal stress [MPa]: more holds nearly all along the record."""
     largest = max(float(np.max(view.data / view.sampled(view.stretch))) for view in views)
@@ -116,6 +124,27 @@ _SEVERAL = Form(
     variant=True,
 )
 
+_CREEPING_WITH_PULL = Form(
+    "creeping_with_pull",
+    (
+        _SLIP,
+        EffectParameter(
+            name="power_of_pull",
+            unit="",
+            lower=0.3,
+            upper=15.0,
+            centre=3.0,
+            scale=0.7,
+            log=True,
+            starts=(1.5, 5.0),
+            reason="from a soft layer of the specimen, 1, to one that flows; nearly a threshold has 10",
+        ),
+    ),
+    driving_strain=_giving,
+    placements=("one",),
+    variant=True,
+)
+
 _KNIVES = Form(
     "knives",
     (EffectParameter("part_of_jumps", "", 0.0, 1.5, 1.0, "all of a jump, where the material cannot follow it"),),
@@ -131,14 +160,14 @@ EFFECT = Effect(
     title="slip in the grips",
     physics=(
         "The specimen slips in its grips at some instant, or whenever the force falls suddenly, and its strain jumps "
-        "back, the recorded one does not; or it creeps out of them from some instant on; or it gives way little by "
-        "little beyond the pull that friction holds. Or the knives of an extensometer slip on it.\n"
+        "back, the recorded one does not; or it creeps out of them, from some instant on or by the pull; or it gives "
+        "way little by little beyond the pull that friction holds. Or the knives of an extensometer slip on it.\n"
         "Amplitude: recorded strain that is lost (per stress beyond what holds, or that falls), or the part of what "
         "jumps. The true stress was made of it, or measured apart."
     ),
     source=(
         "ISO 527-1, section 5.1.3 (grips); Coulomb 1785 (friction holds up to a pull); Heslot et al. 1994, Phys. "
-        "Rev. E 49, 4973 (dry contacts creep); Williams & Watts 1970 (over several decades)"
+        "Rev. E 49, 4973 (dry contacts creep); Williams & Watts 1970 (over several decades); Norton 1929 (by the pull)"
     ),
     shows_in="one record, from one instant on: the stress drops and recovers; or all records at high stress",
     kind="rig",
@@ -188,6 +217,7 @@ EFFECT = Effect(
             placements=("one",),
             variant=True,
         ),
+        _CREEPING_WITH_PULL,
         Form(
             "progressive",
             (
