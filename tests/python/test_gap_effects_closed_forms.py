@@ -370,6 +370,15 @@ def test_damage_by_the_stress_grows_as_what_the_area_left_carries():
     np.testing.assert_allclose(ratio[-150:], 1.0 - lost.y[0, 1], rtol=1e-4)
 
 
+def test_damage_by_the_work_ends_with_it_and_none_is_done_on_the_way_back():
+    """30 MPa recorded all along: the work is 30 e, e the largest strain so far."""
+    loop = replace(up_and_down(), true_stress=np.full(601, 30.0))
+    found, _ = predicted(LAW, loop, "damage", "by_work", (0.3, 12.0))
+    ratio = found[1:] / LAW.stress(loop.time, loop.true_strain)[1:]
+    assert ratio[199] == pytest.approx(math.exp(-0.3 * (1.0 - math.exp(-15.0 / 12.0))), rel=1e-6)
+    np.testing.assert_allclose(ratio[-150:], math.exp(-0.3 * (1.0 - math.exp(-30.0 / 12.0))), rtol=1e-6)
+
+
 def test_flow_by_the_stress_that_the_network_does_not_carry_is_quicker_by_one_factor_where_that_is_constant():
     """A recorded stress of 10 MPa above h e_HT: tau_max over 1 + a / 2^m."""
     record = ramp(samples=2001)
@@ -640,6 +649,41 @@ def test_a_specimen_creeps_out_of_its_grips_ever_slower():
     since = np.maximum(record.time / record.time[-1] - 0.4, 0.0) / 0.05
     lost = 0.01 * (1.0 - np.exp(-(since**0.7)))
     np.testing.assert_allclose(found, np.exp(lost) * 1000.0 * (record.true_strain - lost), rtol=1e-9, atol=1e-9)
+
+
+def of_one(record, form, values):
+    """The stress of the elastic bar whose specimen slips in one record."""
+    views = views_of(probation.Campaign(name="slip", records=(record,)))
+    model = CampaignModel(bar(), views, [cause("grip_slip", form, record.id)])
+    return model.predict(model.parameters(np.array([1000.0]), values))[record.id]
+
+
+def test_a_specimen_creeps_out_of_its_grips_by_the_pull():
+    """Under a pull that grows as the time its rate is t^3, so that it has lost a (t / T)^4."""
+    plain = ramp(end=0.5)
+    record = replace(plain, true_stress=40.0 * plain.time / plain.time[-1] * np.exp(plain.true_strain))
+    lost = 0.01 * (record.time / record.time[-1]) ** 4
+    expected = np.exp(lost) * 1000.0 * (record.true_strain - lost)
+    np.testing.assert_allclose(of_one(record, "creeping_with_pull", (0.01, 3.0)), expected, rtol=1e-5, atol=1e-3)
+
+
+def test_a_specimen_slips_again_with_every_fall_of_the_force():
+    """The bar loses a per MPa that the nominal stress falls by, 2 and 3 MPa, and the section was measured apart."""
+    plain = ramp(end=0.5)
+    fallen = 2.0 * (plain.time > 30.1) + 3.0 * (plain.time > 60.1)
+    nominal = 20.0 * plain.time / plain.time[-1] - fallen
+    record = replace(plain, true_stress=nominal * np.exp(plain.true_strain))
+    expected = 1000.0 * (record.true_strain - 1e-3 * fallen)
+    found = of_one(record, "several_measured_section", (1e-3,))
+    np.testing.assert_allclose(found, expected, rtol=1e-6, atol=0.2)  # a fall is that beyond the rise around it
+
+
+def test_a_part_of_the_jumps_of_the_strain_is_the_extensometers():
+    plain = ramp(end=0.5)
+    jumps = 0.004 * (plain.time > 30.1) - 0.006 * (plain.time > 60.1)
+    record = replace(plain, true_strain=plain.true_strain + jumps)
+    expected = 1000.0 * (record.true_strain - 0.75 * jumps)
+    np.testing.assert_allclose(of_one(record, "knives_measured_section", (0.75,)), expected, rtol=1e-9, atol=1e-9)
 
 
 def test_jaws_give_way_beyond_what_friction_holds():

@@ -52,7 +52,7 @@ Priors of effects stand in their catalogue, each with its reason; the example of
 
 NUMERICAL = {
     "detection/hidden_steps.py": {"_BEFORE", "_EDGE", "_RECOVERIES"},
-    "effects/sudden.py": {"_BESIDE", "_NEAR", "_STAYS"},
+    "effects/sudden.py": {"NEAR", "_BESIDE", "_STAYS"},
     "effects/instants.py": {"_EVEN"},
     "noise/arma.py": {"START_UP", "SETTLED", "_EDGES", "GRID", "REFINED"},
     "noise/drift.py": {"SIZES", "BIASES"},
@@ -149,7 +149,6 @@ IN_FUNCTIONS = {
     "smoothing/segmented.py": {6.0},  # half of a sampling interval, uniform
     "smoothing/sines.py": {0.98, 60},
     "effects/coordinate.py": {10.0},
-    "effects/sudden.py": {64},  # a cache
     "effects/effect.py": {1e-4, 1e-5},  # steps of difference quotients
     "effects/large_forms.py": {0.9},  # bounds of a gain
     "effects/record_view.py": {1e-3},

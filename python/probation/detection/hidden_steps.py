@@ -16,7 +16,6 @@ from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
-    from probation.noise.model import NoiseModel
     from probation.noise.record_residual import RecordResidual
     from probation.noise.whitening import Whitened
 
@@ -32,43 +31,49 @@ _RECOVERIES = (0.1, 0.03, 0.01)
 
 def without_hidden_steps(whitened: Whitened) -> dict[int, RecordResidual]:
     """Records whose noise is one that steps may have made, without these."""
-    return {
-        index: replace(record, residual=_without_steps(record.residual))
-        for index, (record, noise) in enumerate(zip(whitened.records, whitened.noises, strict=True))
-        if len(record) >= DETECTION.fewest_for_steps * DETECTION.slowest_line and _mostly_quieter(record, noise)
-    }
+    taken = {}
+    for index, (record, noise) in enumerate(zip(whitened.records, whitened.noises, strict=True)):
+        usual = SD_OF_MEDIAN * float(np.median(np.abs(np.diff(record.residual))))
+        expected = float(np.median(noise.deviation)) * np.sqrt(2.0 * (1.0 - noise.correlation))
+        if 0.0 < usual < DETECTION.mostly_quieter * expected:
+            left = _without_steps(record.residual, DETECTION.sharp_difference * usual)
+            if left is not None:
+                taken[index] = replace(record, residual=left)
+    return taken
 
 
-def _mostly_quieter(record: RecordResidual, noise: NoiseModel) -> bool:
-    """Whether most samples differ from the next one by much less than the noise has it."""
-    usual = float(np.median(noise.deviation)) * np.sqrt(2.0 * (1.0 - noise.correlation))
-    return bool(_usual_difference(record.residual) < DETECTION.mostly_quieter * usual)
+def _without_steps(residual: FloatArray, sharp: float) -> FloatArray | None:
+    """A residual (n,) without its differences beyond `sharp` [MPa] and what follows from them; None if with all.
 
-
-def _usual_difference(residual: FloatArray) -> float:
-    """Standard deviation of differences of neighbours, by their median [MPa]."""
-    return SD_OF_MEDIAN * float(np.median(np.abs(np.diff(residual))))
-
-
-def _without_steps(residual: FloatArray) -> FloatArray:
-    """A residual (n,) without what is sharper than its usual differences; not beyond so many steps."""
-    for _ in range(DETECTION.most_hidden_steps):
-        if np.max(np.abs(np.diff(residual))) < DETECTION.sharp_difference * _usual_difference(residual):
+    Where the stress does not recover from the sharpest one it is a loud reading, and the others stay, too.
+    """
+    left = None
+    for _ in range(min(DETECTION.most_hidden_steps, len(residual) // DETECTION.samples_per_step)):
+        without = _without_sharpest(residual if left is None else left, sharp)
+        if without is None:
             break
-        residual = _without_sharpest(residual)
-    return residual
+        left = without
+    return left
 
 
-def _without_sharpest(residual: FloatArray) -> FloatArray:
-    """A residual (n,) without the step where neighbours differ most, and what follows from it; its edge bridged."""
-    count = len(residual)
-    place = int(np.argmax(np.abs(np.diff(residual)))) + 1
+def _without_sharpest(residual: FloatArray, sharp: float) -> FloatArray | None:
+    """The same without the sharpest one, its edge bridged; None where none is, or what follows it is no recovery."""
+    count, differences = len(residual), np.diff(residual)
+    place = int(np.argmax(np.abs(differences))) + 1
+    differences *= np.sign(differences[place - 1])
+    if differences[place - 1] <= sharp:
+        return None
     since = np.arange(count) - place
+    edge = np.abs(since + 0.5) <= _EDGE
+    following = np.flatnonzero((differences > sharp) & (since[1:] > _EDGE))
+    end = following[0] - _EDGE if following.size else count
+    near = (since >= -_BEFORE - _EDGE) & (since <= 2.0 * _RECOVERIES[0] * count) & (np.arange(count) <= end) & ~edge
     recovering = np.exp(-np.maximum(since, 0)[:, None] / (np.array(_RECOVERIES) * count)) * (since >= 0)[:, None]
-    near = (since >= -_BEFORE - _EDGE) & (since <= 2.0 * _RECOVERIES[0] * count) & (np.abs(since + 0.5) > _EDGE)
     columns = np.column_stack([np.ones(count), recovering])
     size = np.linalg.lstsq(columns[near], residual[near], rcond=None)[0]
+    rest = residual[near] - columns[near] @ size
+    if not np.sum(rest**2) < DETECTION.left_by_a_step * np.sum((residual[near] - np.mean(residual[near])) ** 2):
+        return None
     left = residual - recovering @ size[1:]
-    edge = np.abs(since + 0.5) <= _EDGE
     left[edge] = np.interp(since[edge], since[~edge], left[~edge])
     return np.asarray(left)

@@ -36,8 +36,8 @@ def without_sharp(records: Sequence[RecordResidual]) -> Whitened:
     They are taken out one by one in every record, as long as that does not raise its noise: a transient has a peak in
     its periodogram, too, and a wave in its place disturbs the rest of the record. Lines in time come first. What is
     periodic in the strain has to lower the noise by much: a part of a gap that is not periodic may look so. Steps come
-    last: teeth that recur are steps, too. Several of them hide each other, and are taken out
-    together; that, too, has to lower the noise by much.
+    last, since teeth that recur are steps, too: first several that hide each other, which has to lower the noise by
+    much as well, then single ones.
 
     Parameters
     ----------

@@ -392,7 +392,7 @@ def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:
         )
     for view, noise in zip(base.model.views, base.whitened.noises, strict=True):
         stated = view.record.noise.stress_MPa
-        if stated is not None and noise.sigma > NOISE.not_as_stated * stated:
+        if stated and noise.sigma > NOISE.not_as_stated * stated:
             warnings.append(
                 f"{noise.name}: the noise of the stress is {noise.sigma:.2g} MPa in the record, {stated:.2g} MPa as "
                 "stated; the larger one counts"

@@ -183,10 +183,10 @@ def _cause(
         far = [each.effects for each in explanations if each.effects in rivals and _far_behind(each, best)]
         indistinct = _indistinct(parts.named, [effects for effects in rivals if effects not in far])
         part = _is_part(best, parts, named, fall, indistinct, identify.noise_MPa)
-        return part + _of_other_forms(far, "still more")
+        return part + _not_excluded(far, "still more")
     behind = [each.effects for each in explanations if each.effects in rivals and _leaves_more(each)]
     near = [effects for effects in rivals if effects not in behind]
-    others = _indistinct(parts.named, near) + _of_other_forms(behind)
+    others = _indistinct(parts.named, near) + _not_excluded(behind, "more than noise")
     return f"{'of what was tried, ' if cut else ''}{_explains(best, parts, named, fall, others, alone=not near)}"
 
 
@@ -249,19 +249,22 @@ def _leaves_more(each: Explanation) -> bool:
 
 
 def _hardly(best: Explanation, parts: Attribution, identify: Closure) -> bool:
-    """Whether known effects that are improbable close less than half of the gap: they are none of its causes."""
+    """Whether known effects with less than an even chance close less than half of the gap: they only come nearest."""
     closes = identify.closure is not None and identify.closure < EVIDENCE.half_of_the_gap
-    return closes and parts.probability < EVIDENCE.half_of_the_gap and UNKNOWN not in best.effects
+    return closes and parts.probability < EVIDENCE.even_chance and UNKNOWN not in best.effects
 
 
 def _far_behind(each: Explanation, best: Explanation) -> bool:
-    """Whether the records say so much less of it that they do distinguish it; its form may be wrong."""
-    if each.log_evidence is None or best.log_evidence is None:
+    """Whether the records say so much less of it that they do distinguish it; its form may be wrong.
+
+    An unknown takes up what a form leaves: with it and without it explanations are not compared.
+    """
+    if each.log_evidence is None or best.log_evidence is None or (UNKNOWN in each.effects) != (UNKNOWN in best.effects):
         return False
     return each.log_evidence < best.log_evidence - EVIDENCE.far_behind
 
 
-def _of_other_forms(behind: Sequence[tuple[str, ...]], more: str = "more than noise") -> str:
+def _not_excluded(behind: Sequence[tuple[str, ...]], more: str) -> str:
     """What is not excluded though it leaves more, as a further clause; empty where there is none."""
     if not behind:
         return ""

@@ -10,10 +10,12 @@ import numpy as np
 
 from probation import _core
 from probation.effects.backlash import behind, path_since_reversal
+from probation.effects.sudden import NEAR, Sudden, sudden_rises
 from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.schemes import as_scheme
+from probation.noise.quantisation import quantisation_step
 from probation.records.conversions import volume_strain_from
 from probation.records.noise import stress_noise
 from probation.settings.effects import EFFECTS
@@ -190,6 +192,35 @@ class RecordView:
     def stretch(self) -> FloatArray:
         """e^recorded strain, shape (n,): true over nominal stress as it was recorded."""
         return np.exp(self.recorded_strain)
+
+    @cached_property
+    def sudden_falls(self) -> Sudden:
+        """Sudden falls of the force, towards none; their sizes add up to nominal stress, (n,) [MPa]."""
+        if self.same_data is not None:
+            return self.same_data.sudden_falls
+        force = self.data / self.sampled(self.stretch)
+        near_jumps = np.zeros(len(force) - 1, dtype=np.bool_)
+        for jump in np.searchsorted(self.sampled(self.time), self.time[list(self.jumps)]):
+            near_jumps[max(jump - NEAR - 1, 0) : jump + NEAR + 1] = True
+        step = max(quantisation_step(force), quantisation_step(self.data))
+        falls = sudden_rises(-force if np.sum(force) >= 0.0 else force, step, near_jumps)
+        return Sudden(falls.times, np.interp(self.time, self.sampled(self.time), falls.total))
+
+    @cached_property
+    def sudden_jumps(self) -> Sudden:
+        """Sudden changes of the strain as it drives the law, (n,) [-]; none where they are much of its path.
+
+        Then it is read less often than the force, in coarse steps, or was commanded in steps.
+        """
+        if self.same_data is not None:
+            return self.same_data.sudden_jumps
+        strain = self.sampled(self.recorded_strain)
+        step = quantisation_step(strain)
+        up, down = sudden_rises(strain, step), sudden_rises(-strain, step)
+        if up.total[-1] + down.total[-1] > EFFECTS.most_sudden * float(np.sum(np.abs(np.diff(strain)))):
+            return Sudden(0, np.zeros(len(self)))
+        total = np.interp(self.time, self.sampled(self.time), up.total - down.total)
+        return Sudden(up.times + down.times, total)
 
     @property
     def temperature_is_measured(self) -> bool:

@@ -140,6 +140,10 @@ class DetectionSettings:
         "Difference of neighbouring samples, over what the median one tells, from which on it is one of these steps.",
     )
     most_hidden_steps: int = chosen(12, "steps", "So many of these are taken out of a record at most.")
+    samples_per_step: int = chosen(40, "samples", "Samples of a record for each of them, at least.")
+    left_by_a_step: float = chosen(
+        0.5, "-", "Sum of squares around such a step that a recovery may leave; what leaves more is no step."
+    )
     noise_without_hidden_steps: float = chosen(
         0.5, "noise", "Noise, over that before, that may be left without all of them."
     )

@@ -45,8 +45,12 @@ class EffectsSettings:
         "standard deviations",
         "Change from sample to sample beyond those beside it, over what the median one tells, that a slip makes.",
     )
+    sudden_steps: float = chosen(1.5, "steps", "Such a change over the step of the readings: one of these is no slip.")
     least_sudden: float = chosen(
-        0.002, "largest force or strain", "Such a change, at least: records without noise have none of rounding."
+        0.002, "largest force or strain", "Least such change: in records without noise, rounding would be one."
+    )
+    most_sudden: float = chosen(
+        0.2, "path of the strain", "Sudden changes of the strain that are more of it, together, are no slips of knives."
     )
     large_hysteresis: float = chosen(
         0.1, "largest force", "Standard deviation of a gross hysteresis: a guide or a joint of the load train rubs."

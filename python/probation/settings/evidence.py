@@ -166,10 +166,9 @@ class EvidenceSettings:
         0.01, "-", "Part of the gap below which an effect is not named jointly with those that close the rest."
     )
     half_of_the_gap: float = chosen(
-        0.5,
-        "-",
-        "An explanation less probable than that, which closes less than that part, is named as what comes nearest.",
+        0.5, "-", "Known effects that close less than this part, with less than an even chance, only come nearest."
     )
+    even_chance: float = chosen(0.5, "probability", "That chance.")
     far_behind: float = chosen(
         100.0,
         "log evidence",

@@ -127,8 +127,8 @@ EFFECT = Effect(
     title="damage",
     physics=(
         "Voids and breakage take load-bearing area for good, the more the further the specimen has been strained.\n"
-        "Amplitude: -ln of the area left, at large strain, or at a strain of 1 (growing); the area lost (beyond "
-        "a strain); that per strain under 20 MPa (by stress)."
+        "Amplitude: -ln of the area left, at large strain or after much work, or at a strain of 1 (growing); the area "
+        "lost (beyond a strain); that per strain under 20 MPa (by stress)."
     ),
     source=(
         "Kachanov 1958; Lemaitre 1985, J. Eng. Mater. Technol. 107, 83; Simo & Ju 1987, Int. J. Solids Struct. 23, "

@@ -9,7 +9,6 @@ import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.instants import INSTANT, likely_instants, passed
-from probation.effects.sudden import falls_of, jumps_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -74,21 +73,21 @@ def _progressive(view: RecordView, values: Values) -> FloatArray:
 
 def _slips(view: RecordView, values: Values) -> FloatArray:
     """With every sudden fall of the force the specimen loses a per MPa of it."""
-    return np.asarray(view.true_strain - values[0] * falls_of(view.same_data or view).total)
+    return np.asarray(view.true_strain - values[0] * view.sudden_falls.total)
 
 
 def _slips_again(views: Sequence[RecordView]) -> bool:
     """One fall has forms of its own."""
-    return any(falls_of(view.same_data or view).times > 1 for view in views)
+    return any(view.sudden_falls.times > 1 for view in views)
 
 
 def _knives(view: RecordView, values: Values) -> FloatArray:
     """The knives of an extensometer slip: the specimen saw all but a part a of every sudden jump of the strain."""
-    return np.asarray(view.true_strain - values[0] * jumps_of(view.same_data or view).total)
+    return np.asarray(view.true_strain - values[0] * view.sudden_jumps.total)
 
 
 def _knives_slip(views: Sequence[RecordView]) -> bool:
-    return any(jumps_of(view.same_data or view).times > 0 for view in views)
+    return any(view.sudden_jumps.times > 0 for view in views)
 
 
 def _once_where(happens: NeedsHook) -> StartsHook:
@@ -169,7 +168,10 @@ EFFECT = Effect(
         "ISO 527-1, section 5.1.3 (grips); Coulomb 1785 (friction holds up to a pull); Heslot et al. 1994, Phys. "
         "Rev. E 49, 4973 (dry contacts creep); Williams & Watts 1970 (over several decades); Norton 1929 (by the pull)"
     ),
-    shows_in="one record, from one instant on: the stress drops and recovers; or all records at high stress",
+    shows_in=(
+        "one record, from one instant on: the stress drops and recovers, or, where the extensometer slips, the "
+        "recorded strain jumps; or all records at high stress"
+    ),
     kind="rig",
     forms=(
         Form("recorded_section", _PARAMETERS, driving_strain=_slip, starts=_starts, placements=("one",), sharp="step"),

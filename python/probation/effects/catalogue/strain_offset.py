@@ -137,7 +137,8 @@ EFFECT = Effect(
         "Slack in the load train is recorded as strain (toe), the strain was zeroed at the wrong length or its zero "
         "creeps while a camera warms up, or one face of a bent or misaligned strip was measured while it was pulled "
         "straight.\n"
-        "Amplitude: recorded strain that the specimen did not see. The true stress was made of it, or measured apart."
+        "Amplitude: recorded strain that the specimen did not see. The true stress was made of it, or (measured "
+        "section) not."
     ),
     source=(
         "ASTM D638, annex A1 (toe compensation); Timoshenko & Gere 1961, Theory of Elastic Stability, section 1.12 "
