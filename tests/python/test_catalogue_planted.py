@@ -1008,8 +1008,8 @@ def test_a_measured_rise_drives_self_heating():
 
 
 def test_a_rise_that_is_small_beside_the_scatter_of_its_readings_drives_self_heating():
-    """Half a degree, read to 0.15: seen by its many readings; a rival more (gain of the strain) takes 0.60 to 0.54."""
-    found = named(measured_warming(softening=0.1, hottest=0.5, scatter=0.15), "self_heating", least=0.5)
+    """Half a degree, read to 0.15: seen by its many readings. It leads; rivals have further forms, and the rest."""
+    found = named(measured_warming(softening=0.1, hottest=0.5, scatter=0.15), "self_heating", least=0.4)
     assert found.best.forms == ("as_measured",)
     assert value(found, "softening_per_degC") == pytest.approx(0.1, rel=0.3)
 
