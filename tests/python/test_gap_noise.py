@@ -157,6 +157,16 @@ def test_several_slips_from_which_the_stress_recovers_are_no_noise(count):
     assert [noise.sigma for noise in found] == pytest.approx([0.04] * 6, rel=0.2)
 
 
+def test_steps_at_the_ends_of_a_record_or_side_by_side_are_left_there():
+    """There is nothing from which it could be told that the stress recovers."""
+    plain = gap_noise.records("white", rng(13), 200)
+    added = np.zeros(200)
+    added[:2] = added[-2:] = added[100] = added[103:105] = 4.0
+    loud = [replace(plain[0], residual=plain[0].residual + added), *plain[1:]]
+    noises = estimate_noise(loud)
+    assert set(without_hidden_steps(Whitened.of(loud, noises))) <= {0}
+
+
 @pytest.mark.parametrize("samples", [60, 100, 150, 500])
 @pytest.mark.parametrize("kind", ["bursts", "loud readings", "a loud third"])
 def test_loud_noise_stays_noise(kind, samples):

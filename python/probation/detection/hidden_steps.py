@@ -70,6 +70,8 @@ def _without_sharpest(residual: FloatArray, sharp: float) -> FloatArray | None:
     near = (since >= -_BEFORE - _EDGE) & (since <= 2.0 * _RECOVERIES[0] * count) & (np.arange(count) <= end) & ~edge
     recovering = np.exp(-np.maximum(since, 0)[:, None] / (np.array(_RECOVERIES) * count)) * (since >= 0)[:, None]
     columns = np.column_stack([np.ones(count), recovering])
+    if np.count_nonzero(near) < 2 * columns.shape[1]:  # the next one is too close
+        return None
     size = np.linalg.lstsq(columns[near], residual[near], rcond=None)[0]
     rest = residual[near] - columns[near] @ size
     if not np.sum(rest**2) < DETECTION.left_by_a_step * np.sum((residual[near] - np.mean(residual[near])) ** 2):
