@@ -185,3 +185,8 @@ def check_output(out: object, name: str, shape: tuple[int, ...], dtype: np.dtype
     fits = isinstance(out, np.ndarray) and (out.shape, out.dtype) == (shape, dtype) and out.flags.carray
     if not fits:
         raise InputError(f"{name} must be a writeable, contiguous {dtype} array of shape {shape}")
+
+
+def running_integral(values: FloatArray, along: FloatArray) -> FloatArray:
+    """Of samples (n,) along another quantity (n,), by trapezia: from the first sample up to each; shape (n,)."""
+    return np.append(0.0, np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(along)))

@@ -1,4 +1,4 @@
-"""Refits told apart by their causes: the least of each set, of each effect, and what parts of them there are."""
+"""Refits by their causes: the least of each set, of each effect, and what parts of them there are."""
 
 from __future__ import annotations
 

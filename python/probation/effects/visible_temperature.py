@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._arrays import running_integral
 from probation.records.noise import noise_level
 from probation.settings.effects import EFFECTS
 
@@ -50,7 +51,7 @@ def work_can_warm(view: RecordView) -> bool:
 def work_so_far(view: RecordView) -> FloatArray:
     """Largest work done on the specimen so far, shape (n_samples,) [MPa]."""
     strain = view.sampled(view.true_strain)
-    work = np.append(0.0, np.cumsum(0.5 * (view.data[1:] + view.data[:-1]) * np.diff(strain)))
+    work = running_integral(view.data, strain)
     return np.asarray(np.maximum.accumulate(np.maximum(work, 0.0)))
 
 

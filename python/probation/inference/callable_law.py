@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from probation._arrays import as_samples
+from probation._arrays import as_samples, running_integral
 from probation.effects.maxwell_element import maxwell_element
 from probation.errors import InputError
 from probation.law.modification import CAPABILITIES, Modification
@@ -141,6 +141,6 @@ def _maxwell(
     factor = modification.unrelaxed_modulus_factor
     if factor is not None:  # int factor de, trapezoidal
         factors = np.broadcast_to(np.asarray(factor, dtype=np.float64), strain.shape)
-        strain = np.append(0.0, np.cumsum(0.5 * (factors[1:] + factors[:-1]) * np.diff(strain)))
+        strain = running_integral(factors, strain)
     area = 1.0 if modification.load_bearing_area is None else np.asarray(modification.load_bearing_area)
     return np.asarray(area * modulus * maxwell_element(time, strain, float(relaxation_time)))

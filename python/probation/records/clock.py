@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from probation._arrays import running_integral
 from probation.settings.reading import READING
 
 FloatArray = NDArray[np.float64]
@@ -313,7 +314,7 @@ def _rate(signals: Signals, step: float) -> Signals:
     inner = grid[(grid >= time[0] + reach) & (grid <= time[-1] - reach)]
 
     def of(column: FloatArray) -> FloatArray:
-        area = np.concatenate([[0.0], np.cumsum(0.5 * (column[1:] + column[:-1]) * np.diff(time))])
+        area = running_integral(column, time)
         areas = [np.interp(inner + at, time, area) for at in (-reach, 0.0, reach)]
         rate: FloatArray = (areas[0] - 2.0 * areas[1] + areas[2]) / reach**2
         size = float(np.sqrt(np.mean(rate**2))) if len(rate) else 0.0

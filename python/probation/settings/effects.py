@@ -43,7 +43,7 @@ class EffectsSettings:
     sudden: float = chosen(
         8.0,
         "standard deviations",
-        "Change from sample to sample beyond those beside it, over what the median one tells, that a slip makes.",
+        "Change from sample to sample beyond those before and after, over what the median one tells, of a slip.",
     )
     sudden_steps: float = chosen(1.5, "steps", "Such a change over the step of the readings: one of these is no slip.")
     least_sudden: float = chosen(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._arrays import running_integral
 from probation.effects.catalogue.stress_activated_flow import REFERENCE_STRESS
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.record_view import largest_strain_of
@@ -57,8 +58,7 @@ def _by_stress(view: RecordView, values: Values) -> Modification:
     """
     loss, exponent, threshold = values
     power = (np.abs(view.smooth_true_data) / REFERENCE_STRESS) ** exponent
-    further = np.diff(np.maximum(view.largest_strain, threshold))
-    done = np.append(0.0, np.cumsum(0.5 * (power[1:] + power[:-1]) * further))
+    done = running_integral(power, np.maximum(view.largest_strain, threshold))
     left = np.maximum(1.0 - (exponent + 1.0) * loss * done, _LEAST_AREA ** (exponent + 1.0))
     return Modification(load_bearing_area=left ** (1.0 / (exponent + 1.0)))
 
@@ -70,9 +70,7 @@ def _by_work(view: RecordView, values: Values) -> Modification:
 
 def _work(view: RecordView) -> FloatArray:
     """Of straining further than ever, shape (n,) [MPa]."""
-    stress = np.maximum(view.smooth_true_data, 0.0)
-    further = np.diff(view.largest_strain)
-    return np.append(0.0, np.cumsum(0.5 * (stress[1:] + stress[:-1]) * further))
+    return running_integral(np.maximum(view.smooth_true_data, 0.0), view.largest_strain)
 
 
 _LOSS = EffectParameter("area_loss", "", 0.0, 0.95, 0.2, _REASON)

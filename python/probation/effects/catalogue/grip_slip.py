@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._arrays import running_integral
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.instants import INSTANT, likely_instants, passed
 
@@ -99,7 +100,7 @@ def _giving(view: RecordView, values: Values) -> FloatArray:
     """It creeps out at a rate in proportion to a power of the pull, and has lost a when the record ends (Norton)."""
     pull = np.maximum(view.smooth_nominal_data, 0.0)
     rate = (pull / max(float(np.max(pull)), 1e-300)) ** values[1]
-    lost = np.append(0.0, np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(view.time)))
+    lost = running_integral(rate, view.time)
     return np.asarray(view.true_strain - values[0] * lost / max(float(lost[-1]), 1e-300))
 
 

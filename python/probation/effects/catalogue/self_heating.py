@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._arrays import running_integral
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 from probation.effects.maxwell_element import maxwell_element
 from probation.effects.visible_temperature import all_measured, warms_by_work
@@ -168,7 +169,7 @@ def _kept_heat(view: RecordView, cooling: float, stored_hardening: float, stored
     """The same of the work that is not stored in the network, nor as elastic energy; shape (n,) [MPa]."""
     stress = view.smooth_true_data
     flow = stress - stored_hardening * haward_thackray_strain(view.true_strain)
-    work = np.append(0.0, np.cumsum(0.5 * (flow[1:] + flow[:-1]) * np.diff(view.true_strain)))
+    work = running_integral(flow, view.true_strain)
     return maxwell_element(view.time, work - 0.5 * stored_compliance * stress**2, 1.0 / cooling)
 
 

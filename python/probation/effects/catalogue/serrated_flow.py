@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation._arrays import running_integral
 from probation.detection.strain_periodic import likely_periods
 from probation.effects.effect import Effect, EffectParameter, Form, Values
 
@@ -134,7 +135,7 @@ def _coefficients(
     strain, force = strain[flowing], (view.data / view.sampled(view.stretch))[flowing]
     if len(strain) < 2:
         return np.zeros(len(orders), dtype=np.complex128)
-    area = np.append(0.0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(strain)))
+    area = running_integral(force, strain)
     behind, ahead = strain - 0.5 * period, strain + 0.5 * period
     mean = (np.interp(ahead, strain, area) - np.interp(behind, strain, area)) / period
     inside = (behind >= strain[0]) & (ahead <= strain[-1])
