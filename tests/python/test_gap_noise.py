@@ -167,6 +167,18 @@ def test_steps_at_the_ends_of_a_record_or_side_by_side_are_left_there():
     assert set(without_hidden_steps(Whitened.of(loud, noises))) <= {0}
 
 
+def test_a_start_that_the_law_misses_is_no_step():
+    """Nothing comes before it; the rest of the record is exact but for its last digit."""
+    at = np.arange(101)
+    start = 0.04 * np.exp(-at / 2.0) + 0.01 * np.exp(-at / 30.0)
+    start[0] = 0.0
+    exact = [
+        replace(record, residual=start + 1e-5 * rng(index).standard_normal(101))
+        for index, record in enumerate(gap_noise.records("white", rng(14), 101))
+    ]
+    assert without_hidden_steps(Whitened.of(exact, estimate_noise(exact))) == {}
+
+
 @pytest.mark.parametrize("samples", [60, 100, 150, 500])
 @pytest.mark.parametrize("kind", ["bursts", "loud readings", "a loud third"])
 def test_loud_noise_stays_noise(kind, samples):

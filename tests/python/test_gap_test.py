@@ -14,6 +14,7 @@ from probation.detection.tail import chi_square_tail, family_p_value, normal_tai
 from probation.noise.arma import Arma
 from probation.noise.estimate import estimate_noise
 from probation.noise.model import NoiseModel
+from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitening import Whitened
 from probation.settings.detection import DETECTION
 
@@ -152,6 +153,20 @@ def test_one_record_of_few_samples_is_tested():
     record = gap_noise.records("white", np.random.default_rng(8), 24)[1]
     found = GapTester(Whitened.of([record]))()
     assert 0.0 < found.p_value <= 1.0
+
+
+def test_specimens_may_differ_by_more_than_any_noise():
+    """Draws beyond 40 standard deviations, where a normal tail is zero: the test still says no gap of none."""
+    records = gap_noise.records("white", np.random.default_rng(15), COUNT)
+    whitened = Whitened.of(records, known_noise(records))
+    shapes = directions(whitened)
+    columns = tuple(
+        np.where(np.arange(len(whitened)) // COUNT == index, sum(shapes.values()), 0.0)[:, None]
+        for index in range(len(records))
+    )
+    scatter = UncertainScatter(columns, np.array([[100.0], [3000.0]]))
+    found = GapTester(whitened, shapes, scatter=scatter, size=4000)()
+    assert 0.05 < found.p_value <= 1.0
 
 
 def test_tails_are_those_of_the_distributions_and_go_on_beyond_the_draws():

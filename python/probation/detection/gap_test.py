@@ -152,7 +152,7 @@ class GapTester:
         if self._effects:
             largest = np.sort(np.max(np.abs(products[:, self._effect_slice]), axis=1))[::-1]
             rank = max(size // DETECTION.effective_one_in, 1)
-            single = float(2.0 * normal_tail(largest[rank - 1], self._spread))
+            single = max(float(2.0 * normal_tail(largest[rank - 1], self._spread)), 1e-300)
             self._effective = max(np.log1p(-rank / size) / np.log1p(-single), 1.0)
         self._drawn = self._smallest(products)
 

@@ -61,7 +61,7 @@ def _without_sharpest(residual: FloatArray, sharp: float) -> FloatArray | None:
     count, differences = len(residual), np.diff(residual)
     place = int(np.argmax(np.abs(differences))) + 1
     differences *= np.sign(differences[place - 1])
-    if differences[place - 1] <= sharp:
+    if differences[place - 1] <= sharp or place < _BEFORE:  # a start that the law misses falls from nothing
         return None
     since = np.arange(count) - place
     edge = np.abs(since + 0.5) <= _EDGE
