@@ -806,6 +806,31 @@ def test_a_specimen_that_is_clamped_under_stress(stiffness):
     assert found.best.parameters[0].value == pytest.approx(1.2 * stiffness, rel=0.15)
 
 
+@pytest.mark.parametrize("section", ["recorded", "measured"])
+def test_a_strain_that_was_zeroed_when_the_specimen_was_under_load(section):
+    """One test was pulled by 0.004 before its readings were zeroed and recorded; whatever relaxed by then had relaxed.
+
+    Its rate jumps to the tenfold: at one rate it would be a strain that lags. The true stress was made of the force and
+    the recorded strain, or with a section that was measured.
+    """
+    records = []
+    for seed, rate in enumerate((1e-3, 1e-3, 3e-2)):
+        time, strain = path(rate, [0.9])
+        first = int(np.searchsorted(strain, 0.004)) if seed == 1 else 0
+        if seed == 1:
+            jump = strain[first + 40 * FINE]
+            time = np.interp(strain, [0.0, jump, 0.9], np.array([0.0, jump, jump + 0.1 * (0.9 - jump)]) / rate)
+        stress = LAW.stress(time, strain, scheme="sa3")
+        if section == "recorded":
+            stress = stress * np.exp(-strain[first])
+        time, strain, stress = (each[first:][::FINE] for each in (time, strain, stress))
+        noisy = stress + 0.04 * np.random.default_rng(seed).standard_normal(len(stress))
+        records.append(Record(f"test-{seed}", time - time[0], strain - strain[0], noisy))
+    found = named(campaign(records), "prestress")
+    assert found.best.records == ("test-1",)
+    assert value(found, "prestress_MPa") / value(found, "preload_modulus_MPa") == pytest.approx(0.004, rel=0.3)
+
+
 def test_a_network_of_short_chains():
     """The inverse Langevin function by Cohen's rational form, three chains of 1.9 links."""
     root = np.sqrt(1.9)

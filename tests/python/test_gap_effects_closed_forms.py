@@ -842,6 +842,23 @@ def test_a_prestress_relaxes_with_the_modes_that_carry_it(form, values, cut):
     np.testing.assert_allclose(found - LAW.stress(record.time, record.true_strain, scheme="sa2"), expected, atol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("form", "converted"), [("zeroed_under_load", True), ("zeroed_under_load_measured_section", False)]
+)
+def test_a_strain_that_was_zeroed_under_load_lacks_what_came_before(form, converted):
+    """A ramp that is recorded from 0.006 on, at first under 3 MPa: what is left of it is the rest of that ramp."""
+    whole, first = ramp(end=0.306, samples=2041), 40
+    stress = LAW.stress(whole.time, whole.true_strain, scheme="sa2")
+    time, strain = whole.time[first:] - whole.time[first], whole.true_strain[first:] - whole.true_strain[first]
+    record = probation.Record(id="from 0.006 on", time=time, true_strain=strain, true_stress=stress[first:])
+    before = whole.true_strain[first]
+    network = 2.0 * (np.exp(2.0 * before) - np.exp(-before))
+    carried = stress[first] - network
+    values = (carried, whole.time[first] / 6.0, carried / before)
+    found, _ = predicted(LAW, record, "prestress", form, values, scheme="sa2")
+    np.testing.assert_allclose(found, np.exp(-before * converted) * stress[first:], rtol=2e-4)
+
+
 def test_waves_on_force_stress_and_strain_over_time_and_over_the_elongation():
     wave = np.sin(2.0 * np.pi * 0.05 * np.linspace(0.0, 200.0, 400) + 0.7)
     found, _, strain = faulty("periodic_disturbance", "force", (0.3, 0.05, 0.7))

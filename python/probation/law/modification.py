@@ -59,13 +59,17 @@ class InitialStress(NamedTuple):
     Attributes
     ----------
     stress : float [MPa]
-        Shared by the modes in proportion to their weights times e^(-cut tau_max / tau_j).
+        Shared by the modes in proportion to their weights times e^(-cut tau_max / tau_j) (1 - e^(-x)) / x, x = pulled
+        tau_max / tau_j.
     cut : float [-]
-        Modes faster than `cut` tau_max have relaxed.
+        Modes faster than `cut` tau_max have relaxed: the specimen was held for so long.
+    pulled : float [-]
+        Before, it was stretched at one rate for so long, over tau_max; 0 for a sudden stretch.
     """
 
     stress: float
     cut: float = 0.0
+    pulled: float = 0.0
 
 
 class OtherSpectrum(NamedTuple):

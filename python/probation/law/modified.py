@@ -83,6 +83,9 @@ def modified(
     if (start := modification.initial_stress) is not None:
         weight = spectrum.modal_weight
         still_carried = weight * np.exp(-start.cut / spectrum.relaxation_ratio)
+        if start.pulled > 0.0:
+            duration = start.pulled / spectrum.relaxation_ratio
+            still_carried *= -np.expm1(-duration) / duration
         relaxed = law.hardening_modulus * _initial_hardening(change, initial_haward_thackray_strain)
         relaxed += np.append(change.added_relaxed_stress, 0.0)[0]
         change.initial_modal_stress = relaxed * weight + start.stress * still_carried / still_carried.sum()
