@@ -135,6 +135,21 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     assert "only jointly" not in found.headline  # of less than 1 %
 
 
+def test_a_reading_that_begins_far_from_zero_and_a_frame_that_gives_way_a_little_are_found_jointly():
+    """The frame by itself has no force that it could share with specimens at such strains: no refit of it begins."""
+    recorded = campaign(set(TESTS), lambda t, u, f: (t, u + 0.15 + 1e-3 * f, f)).records[1:3]
+    known = ["strain_offset", "machine_compliance", "damage", "strain_gain", "structural_softening"]
+    found = probation.diagnose(probation.Campaign(name="two tests", records=recorded), effects=known, design=False)
+    best = found.explanations[0]
+    assert found.verdict == "explained", found.headline
+    assert set(best.effects) == {"strain_offset", "machine_compliance"}
+    assert best.probability > 0.6
+    value = {each.name: each.value for each in best.parameters}
+    assert value["slack_strain"] == pytest.approx(0.15, rel=0.02)
+    assert value["compliance_per_MPa"] == pytest.approx(1e-3, rel=0.05)
+    assert found.shrink.identify.after_MPa < 1.1 * NOISE
+
+
 def test_contacts_that_give_way_by_half_of_the_travel_are_found_with_their_power(monkeypatch):
     """Hertz: what they take goes with the force to the power 2/3, in one record of four."""
     monkeypatch.setitem(globals(), "SAMPLES", 200)

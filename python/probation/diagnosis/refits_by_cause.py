@@ -50,12 +50,6 @@ def with_others_absent(whole: Refit, part: Refit) -> FloatArray:
     return whole.model.parameters(base, *(known.get(cause_key(cause), (0.0, *own[1:])) for cause, own in others))
 
 
-def hidden_by(single: Refit) -> tuple[str, tuple[str, ...] | None] | None:
-    """By which faults a single cause may be hidden, and where it acts; None if by none."""
-    cause = single.model.causes[-1]
-    return None if cause.form.hidden_by is None else (cause.form.hidden_by, cause.records)
-
-
 def effects_placed(refit: Refit) -> frozenset[tuple[str, tuple[str, ...] | None]]:
     """The effect of a refit, and where it acts."""
     return frozenset((cause.effect.name, cause.records) for cause in refit.model.causes)

@@ -25,7 +25,6 @@ from probation.diagnosis.credible import credible
 from probation.diagnosis.hypothesis import Hypothesis
 from probation.diagnosis.refits_by_cause import (
     effects_placed,
-    hidden_by,
     least_of_each,
     least_of_each_effect,
     of_one_cause,
@@ -313,17 +312,25 @@ class Search:
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
         """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both.
 
-        Also of faults that are far behind by themselves, if they explain anything: the other one is why.
+        Also of faults that are far behind by themselves, if they explain anything: the other one is why. With the one
+        that leaves least also such as no refit could be begun with.
         """
         jobs, residual = [], self.base.model.residual(self.base.refit.parameters)
         most = self.base.refit.chi_square - SEARCH.slack
-        gross = [single for single in singles if hidden_by(single) and single.chi_square < most]
-        for one, other in combinations(least_of_each(gross).values(), 2):
-            pair = one.model.causes[-1], other.model.causes[-1]
-            if hidden_by(one) != hidden_by(other) or pair[0].effect is pair[1].effect:
+        solved = least_of_each(single for single in singles if single.model.causes[0].form.hidden_by is not None)
+        gross = sorted((fit for fit in solved.values() if fit.chi_square < most), key=lambda fit: fit.chi_square)
+        causes = [fit.model.causes[0] for fit in gross]
+        pairs = list(combinations(causes, 2))
+        for first in causes[:1]:
+            others = (Cause(effect, form, first.records) for effect in self.effects for form in effect.forms)
+            pairs += [(first, other) for other in others if frozenset({cause_key(other)}) not in solved]
+        for pair in pairs:
+            one, other = pair
+            together = one.form.hidden_by == other.form.hidden_by and one.records == other.records
+            if not together or one.effect is other.effect:
                 continue
             model = self.base.model.with_causes(pair)
-            views = [view for view in model.views if pair[0].touches(view.id)]
+            views = [view for view in model.views if one.touches(view.id)]
             residuals = [residual[model.rows(view.id)] for view in views]
             for starts in product(*(cause.form.nonlinear_starts(views, residuals)[: SEARCH.starts] for cause in pair)):
                 jobs.append((model, model.parameters(self.base.refit.parameters, *starts)))
