@@ -806,6 +806,19 @@ def test_a_specimen_that_is_clamped_under_stress(stiffness):
     assert found.best.parameters[0].value == pytest.approx(1.2 * stiffness, rel=0.15)
 
 
+def test_a_test_that_was_slower_than_its_true_strain_says():
+    """The strain of one of three tests is a rate times the time; the specimen had 5 % less of it."""
+    made = []
+    for seed, rate in enumerate((SLOW, 5e-3, FAST)):
+        time, strain = path(rate, [0.9])
+        faulty = 1.05 if seed == 1 else 1.0
+        stress = LAW.stress(time, strain / faulty, scheme="sa3") * np.exp(strain - strain / faulty)
+        made.append(record(f"at-{rate:g}", time, strain, stress, seed))
+    found = named(campaign(made), "strain_gain")
+    assert found.best.records == ("at-0.005",)
+    assert value(found, "strain_gain_error") == pytest.approx(0.05, rel=0.1)
+
+
 @pytest.mark.parametrize("section", ["recorded", "measured"])
 def test_a_strain_that_was_zeroed_when_the_specimen_was_under_load(section):
     """One test was pulled by 0.004 before its readings were zeroed and recorded; whatever relaxed by then had relaxed.

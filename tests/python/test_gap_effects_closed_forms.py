@@ -552,6 +552,11 @@ def test_a_wrong_gauge_length_is_a_factor_of_the_elongation():
     np.testing.assert_allclose(found, 1000.0 * seen * np.exp(strain - seen), rtol=1e-10, atol=1e-10)
 
 
+def test_a_true_strain_that_was_a_rate_times_the_time_errs_as_the_rate_does():
+    found, _, strain = faulty("strain_gain", "true_strain", (0.05,))
+    np.testing.assert_allclose(found, 1000.0 * strain / 1.05 * np.exp(strain * 0.05 / 1.05), rtol=1e-10, atol=1e-10)
+
+
 def test_a_characteristic_of_an_extensometer_bends():
     """By its square: 2 % at half of the largest elongation, 4 % at all of it."""
     found, _, strain = faulty("strain_gain", "bending", (0.04, 1.0))

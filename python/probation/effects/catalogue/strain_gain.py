@@ -19,6 +19,11 @@ def _factor(view: RecordView, values: Values) -> FloatArray:
     return true_strain_of(1.0 + np.expm1(view.true_strain) / (1.0 + values[0]))
 
 
+def _true_strain(view: RecordView, values: Values) -> FloatArray:
+    """The specimen's true strain is the recorded one over 1 + a, as if it had been a rate times the time."""
+    return np.asarray(view.true_strain / (1.0 + values[0]))
+
+
 def _bending(view: RecordView, values: Values) -> FloatArray:
     """In proportion to a power of the recorded elongation: nothing at the start, a at its largest."""
     elongation = np.expm1(view.true_strain)
@@ -29,14 +34,17 @@ def _bending(view: RecordView, values: Values) -> FloatArray:
 
 _SIZE = "gauge lengths and extensometers to 1 or 2 %, dumb-bells and clips on soft strips to some per cent"
 
-_FACTOR = Form("factor", (EffectParameter("strain_gain_error", "", -0.5, 0.5, 0.02, _SIZE),), driving_strain=_factor)
+_ERROR = EffectParameter("strain_gain_error", "", -0.5, 0.5, 0.02, _SIZE)
+
+_FACTOR = Form("factor", (_ERROR,), driving_strain=_factor)
 
 EFFECT = Effect(
     name="strain_gain",
     title="gain of the strain",
     physics=(
         "The gauge length is not what was typed in, the extensometer's sensitivity is wrong by a factor, or its "
-        "characteristic bends; so does the effective gauge length of a dumb-bell.\n"
+        "characteristic bends; so does the effective gauge length of a dumb-bell. Or the true strain is a rate that "
+        "was not kept, times the time.\n"
         "Amplitude: relative excess of the recorded elongation, or at its largest. In all records alike a factor is "
         "near one of E_u and G. The true stress was made of it, or (measured section) not."
     ),
@@ -46,6 +54,7 @@ EFFECT = Effect(
     forms=(
         _FACTOR,
         _FACTOR.measured_section(),
+        Form("true_strain", (_ERROR,), driving_strain=_true_strain, variant=True),
         Form(
             "bending",
             (
