@@ -851,7 +851,7 @@ def test_a_prestress_relaxes_with_the_modes_that_carry_it(form, values, cut):
     ("form", "converted"), [("zeroed_under_load", True), ("zeroed_under_load_measured_section", False)]
 )
 def test_a_strain_that_was_zeroed_under_load_lacks_what_came_before(form, converted):
-    """A ramp that is recorded from 0.006 on, at first under 3 MPa: what is left of it is the rest of that ramp."""
+    """A ramp that is recorded from 0.006 on begins with p_j E_u r tau_j (1 - e^(-t / tau_j)) in its modes."""
     whole, first = ramp(end=0.306, samples=2041), 40
     stress = LAW.stress(whole.time, whole.true_strain, scheme="sa2")
     time, strain = whole.time[first:] - whole.time[first], whole.true_strain[first:] - whole.true_strain[first]
@@ -859,6 +859,7 @@ def test_a_strain_that_was_zeroed_under_load_lacks_what_came_before(form, conver
     before = whole.true_strain[first]
     network = 2.0 * (np.exp(2.0 * before) - np.exp(-before))
     carried = stress[first] - network
+    assert carried == pytest.approx(10.65, rel=0.01)  # 3000 MPa, 6 s, 1.2 s at 0.005 1/s
     values = (carried, whole.time[first] / 6.0, carried / before)
     found, _ = predicted(LAW, record, "prestress", form, values, scheme="sa2")
     np.testing.assert_allclose(found, np.exp(-before * converted) * stress[first:], rtol=2e-4)

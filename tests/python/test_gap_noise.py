@@ -179,6 +179,17 @@ def test_a_start_that_the_law_misses_is_no_step():
     assert without_hidden_steps(Whitened.of(exact, estimate_noise(exact))) == {}
 
 
+def test_a_start_that_the_law_misses_does_not_hide_the_slips_that_follow():
+    since = np.arange(500) - np.linspace(60, 430, 7).astype(int)[:, None]
+    each = 1.6 * np.exp(-np.maximum(since, 0) / 2.0) + 0.9 * np.exp(-np.maximum(since, 0) / 12.0)
+    slips = np.where(since >= 0, each, 0.0).sum(axis=0)
+    slips[0] += 4.0
+    loud = gap_noise.records("white", rng(11), 500, [slips, *[0.0 * slips] * 5])
+    [taken] = without_hidden_steps(Whitened.of(loud, estimate_noise(loud))).values()
+    assert np.std(taken.residual[1:]) < 0.1
+    assert np.std(loud[0].residual[1:]) > 0.4
+
+
 @pytest.mark.parametrize("samples", [60, 100, 150, 500])
 @pytest.mark.parametrize("kind", ["bursts", "loud readings", "a loud third"])
 def test_loud_noise_stays_noise(kind, samples):

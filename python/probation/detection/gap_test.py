@@ -152,6 +152,7 @@ class GapTester:
         if self._effects:
             largest = np.sort(np.max(np.abs(products[:, self._effect_slice]), axis=1))[::-1]
             rank = max(size // DETECTION.effective_one_in, 1)
+            # Where specimens differ by far more than noise no tail is left: beyond 37 deviations draws are alike.
             single = max(float(2.0 * normal_tail(largest[rank - 1], self._spread)), 1e-300)
             self._effective = max(np.log1p(-rank / size) / np.log1p(-single), 1.0)
         self._drawn = self._smallest(products)

@@ -59,9 +59,10 @@ def _without_steps(residual: FloatArray, sharp: float) -> FloatArray | None:
 def _without_sharpest(residual: FloatArray, sharp: float) -> FloatArray | None:
     """The same without the sharpest one, its edge bridged; None where none is, or what follows it is no recovery."""
     count, differences = len(residual), np.diff(residual)
-    place = int(np.argmax(np.abs(differences))) + 1
+    # Nothing comes before the first samples from which the stress could fall: what is sharp there stays.
+    place = int(np.argmax(np.abs(differences[_BEFORE - 1 :]))) + _BEFORE
     differences *= np.sign(differences[place - 1])
-    if differences[place - 1] <= sharp or place < _BEFORE:  # a start that the law misses falls from nothing
+    if differences[place - 1] <= sharp:
         return None
     since = np.arange(count) - place
     edge = np.abs(since + 0.5) <= _EDGE

@@ -312,30 +312,43 @@ class Search:
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
         """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both.
 
-        Also of faults that are far behind by themselves, if they explain anything: the other one is why. With the one
-        that leaves least also such as no refit could be begun with.
+        Also of faults that are far behind by themselves, if they explain anything: the other one is why. The one that
+        leaves least also with such as were not solved by themselves.
         """
-        jobs, residual = [], self.base.model.residual(self.base.refit.parameters)
+        jobs: list[Job] = []
+        residual = self.base.model.residual(self.base.refit.parameters)
         most = self.base.refit.chi_square - SEARCH.slack
         solved = least_of_each(single for single in singles if single.model.causes[0].form.hidden_by is not None)
         gross = sorted((fit for fit in solved.values() if fit.chi_square < most), key=lambda fit: fit.chi_square)
         causes = [fit.model.causes[0] for fit in gross]
         pairs = list(combinations(causes, 2))
         for first in causes[:1]:
-            others = (Cause(effect, form, first.records) for effect in self.effects for form in effect.forms)
+            placed = "all" if first.records is None else "one"
+            others = [
+                Cause(effect, form, first.records)
+                for effect in self.effects
+                for form in effect.forms
+                if placed in effect.placements(form) and form.visible_in(self.base.model.views)
+            ]
             pairs += [(first, other) for other in others if frozenset({cause_key(other)}) not in solved]
         for pair in pairs:
             one, other = pair
             together = one.form.hidden_by == other.form.hidden_by and one.records == other.records
             if not together or one.effect is other.effect:
                 continue
-            model = self.base.model.with_causes(pair)
+            if (model := self._with_causes(self.base.model, pair)) is None:
+                continue
             views = [view for view in model.views if one.touches(view.id)]
             residuals = [residual[model.rows(view.id)] for view in views]
-            for starts in product(*(cause.form.nonlinear_starts(views, residuals)[: SEARCH.starts] for cause in pair)):
-                jobs.append((model, model.parameters(self.base.refit.parameters, *starts)))
+            try:
+                grids = [cause.form.nonlinear_starts(views, residuals)[: SEARCH.starts] for cause in pair]
+            except UNSOLVABLE as error:
+                self.skipping.hypothesis(pair, error)
+                continue
+            jobs += [(model, model.parameters(self.base.refit.parameters, *starts)) for starts in product(*grids)]
         begun = sorted(self._solved(jobs, SEARCH.first_steps), key=lambda fit: fit.chi_square)
-        return self._further(begun[: SEARCH.starts])
+        best = list(least_of_each(begun).values())
+        return self._further([*best, *(fit for fit in begun if fit not in best)][: SEARCH.starts])
 
     def _candidates_at(self, start: FloatArray) -> list[Candidate]:
         """Causes as they look from other parameters of the law; gains are over what the base fit leaves."""

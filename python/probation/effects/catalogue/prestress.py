@@ -77,7 +77,7 @@ EFFECT = Effect(
     title="prestress",
     physics=(
         "Clamping or straightening loads the specimen before the record starts; that stress then relaxes. The strain "
-        "may have been zeroed under it.\n"
+        "may have been zeroed only then.\n"
         "Amplitude: stress at the first sample: fresh, held for some time, or in the midst of a pull."
     ),
     source="ISO 527-1, section 9.4 (prestresses)",

@@ -45,8 +45,8 @@ EFFECT = Effect(
         "The gauge length is not what was typed in, the extensometer's sensitivity is wrong by a factor, or its "
         "characteristic bends; so does the effective gauge length of a dumb-bell. Or the true strain is a rate that "
         "was not kept, times the time.\n"
-        "Amplitude: relative excess of the recorded elongation, or at its largest. In all records alike a factor is "
-        "near one of E_u and G. The true stress was made of it, or (measured section) not."
+        "Amplitude: relative excess of the recorded elongation or true strain, or at its largest. In all records "
+        "alike a factor is near one of E_u and G. The true stress was made of it, or (measured section) not."
     ),
     source="ISO 9513 (extensometers); ISO 527-1 (gauge length); ASTM D638 (dumb-bells)",
     shows_in="one record compared with others: it begins with another slope and flows at the same stress",
