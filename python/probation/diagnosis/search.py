@@ -310,35 +310,13 @@ class Search:
             self.found += self._judged(self._solved(jobs, MOST_STEPS))
 
     def _begun_jointly(self, singles: Sequence[Refit]) -> list[Refit]:
-        """Pairs of gross faults in the same records of which one alone hides the other, from the starts of both.
-
-        Also of faults that are far behind by themselves, if they explain anything: the other one is why. The one that
-        leaves least also with such as were not solved by themselves.
-        """
+        """Pairs of gross faults of which one alone hides the other, from the starts of both."""
         jobs: list[Job] = []
         residual = self.base.model.residual(self.base.refit.parameters)
-        most = self.base.refit.chi_square - SEARCH.slack
-        solved = least_of_each(single for single in singles if single.model.causes[0].form.hidden_by is not None)
-        gross = sorted((fit for fit in solved.values() if fit.chi_square < most), key=lambda fit: fit.chi_square)
-        causes = [fit.model.causes[0] for fit in gross]
-        pairs = list(combinations(causes, 2))
-        for first in causes[:1]:
-            placed = "all" if first.records is None else "one"
-            others = [
-                Cause(effect, form, first.records)
-                for effect in self.effects
-                for form in effect.forms
-                if placed in effect.placements(form) and form.visible_in(self.base.model.views)
-            ]
-            pairs += [(first, other) for other in others if frozenset({cause_key(other)}) not in solved]
-        for pair in pairs:
-            one, other = pair
-            together = one.form.hidden_by == other.form.hidden_by and one.records == other.records
-            if not together or one.effect is other.effect:
-                continue
+        for pair in self._hidden_pairs(singles):
             if (model := self._with_causes(self.base.model, pair)) is None:
                 continue
-            views = [view for view in model.views if one.touches(view.id)]
+            views = [view for view in model.views if pair[0].touches(view.id)]
             residuals = [residual[model.rows(view.id)] for view in views]
             try:
                 grids = [cause.form.nonlinear_starts(views, residuals)[: SEARCH.starts] for cause in pair]
@@ -349,6 +327,33 @@ class Search:
         begun = sorted(self._solved(jobs, SEARCH.first_steps), key=lambda fit: fit.chi_square)
         best = list(least_of_each(begun).values())
         return self._further([*best, *(fit for fit in begun if fit not in best)][: SEARCH.starts])
+
+    def _hidden_pairs(self, singles: Sequence[Refit]) -> list[tuple[Cause, Cause]]:
+        """Gross faults in the same records of which one alone may hide the other.
+
+        Also such as are far behind by themselves, if they explain anything: the other one is why. The one that leaves
+        least also with such as were not solved by themselves.
+        """
+        solved = least_of_each(single for single in singles if single.model.causes[0].form.hidden_by is not None)
+        most = self.base.refit.chi_square - SEARCH.slack
+        gross = sorted((fit for fit in solved.values() if fit.chi_square < most), key=lambda fit: fit.chi_square)
+        causes = [fit.model.causes[0] for fit in gross]
+        pairs = list(combinations(causes, 2))
+        for first in causes[:1]:
+            placed = "all" if first.records is None else "one"
+            for effect in self.effects:
+                forms = (form for form in effect.forms if placed in effect.placements(form))
+                others = [
+                    Cause(effect, form, first.records) for form in forms if form.visible_in(self.base.model.views)
+                ]
+                pairs += [(first, other) for other in others if frozenset({cause_key(other)}) not in solved]
+        return [
+            (one, other)
+            for one, other in pairs
+            if one.form.hidden_by == other.form.hidden_by
+            and one.records == other.records
+            and one.effect is not other.effect
+        ]
 
     def _candidates_at(self, start: FloatArray) -> list[Candidate]:
         """Causes as they look from other parameters of the law; gains are over what the base fit leaves."""

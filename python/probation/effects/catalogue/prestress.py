@@ -69,7 +69,6 @@ _UNDER_LOAD = Form(
     driving_strain=_before_zero,
     variant=True,
 )
-_ZEROED = (_UNDER_LOAD, _UNDER_LOAD.measured_section())
 
 
 EFFECT = Effect(
@@ -87,6 +86,7 @@ EFFECT = Effect(
     forms=(
         Form("fresh", (_AMPLITUDE,), modification=_fresh),
         Form("held", (_AMPLITUDE, _HELD), modification=_held),
-        *_ZEROED,
+        _UNDER_LOAD,
+        _UNDER_LOAD.measured_section(),
     ),
 )
