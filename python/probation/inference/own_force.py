@@ -112,7 +112,7 @@ class OwnForce:
             norms.append(norm)
             part_left = min(max((norm / norms[-2]) ** 2, FINEST), ROUGHEST)
         if not np.max(np.abs(left)) <= max(GOOD_ENOUGH, settled) * self._size:
-            raise ConvergenceError("the force that the frame and the specimen share was not found")
+            raise ConvergenceError("no force was found at which frame and specimen are in balance")
 
     def moved(self, stress: FloatArray) -> FloatArray:
         """What y becomes, to first order, where G gives this stress of the present y instead; (n,) [MPa]."""

@@ -108,7 +108,7 @@ def _explanations(comparison: Comparison) -> Table:
         )
         for explanation in comparison.explanations[:_EXPLANATIONS]
     )
-    caption = "What may have changed (★: the data cannot distinguish these)"
+    caption = "What may have changed (★: not excluded by the data)"
     return Table(("", "change", "in", "its size (95 % interval)", "probability"), rows, caption, left=4)
 
 

@@ -102,7 +102,7 @@ def which_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, s
     inside = [max(explanation.probability, float(bool(row[0]))) for explanation, row in zip(shown, rows, strict=True)]
     kept = _kept(inside, most)
     headings = ("", "explanation", "its parameters", "checks", "probability")
-    caption = "Which effect explains the gap (★: the data cannot distinguish these)"
+    caption = "Which effect explains the gap (★: not excluded by the data)"
     lines = tuple(_without(row, empty) for row in rows[:kept])
     table = Table(_without(headings, empty), lines, caption, left=4 - len(empty))
     return table, _rest([explanation.probability for explanation in shown[kept:]], "explanation")
