@@ -32,6 +32,7 @@ from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.settings.noise import NOISE
+from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -312,11 +313,12 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
     if scatter.any:
         plain, scattered = fit, with_scatter(residuals, columns, scatter)
         begun = fitted_noises(scattered)
-        # Specimens that hold the gap after one turn hold it after all that follow.
+        # Specimens that differ hold all of a gap, or the law misses the records for another reason: then what is left
+        # beside them leads the parameters astray. What is so after one turn is so after all that follow.
         for turn in _turns(model, plain.parameters, scattered, begun):
             fit, noises, residuals = turn
             held = specimens_hold_the_gap(model, alike.noises, plain.parameters, fit.parameters)
-            if held and _moved_far(plain, fit, scattered, scatter):
+            if held and _leaves_a_gap(fit):
                 noises = begun
                 fit = refit(Problem(model, Whitener(noises)), plain.parameters, most_steps=0)
                 residuals = residuals_at(scattered, fit)
@@ -368,20 +370,10 @@ def specimens_hold_the_gap(
     return left > NOISE.most_left_to_specimens * least
 
 
-def _moved_far(plain: Refit, refitted: Refit, scattered: Sequence[RecordResidual], scatter: Scatter) -> bool:
-    """Whether the parameters moved by more than specimens that differ explain, once these were let differ.
-
-    They explain the scatter itself, and how far it moves an estimate that does not know of it: a few per cent of E_u
-    may be half of G where the network is soft. Without it that estimate is the one that is far off.
-    """
-    whitener, solver = plain.problem.whitener, np.linalg.pinv(plain.jacobian)
-    noises = [
-        replace(noise, specimen=record.specimen) for noise, record in zip(whitener.noises, scattered, strict=True)
-    ]
-    moved = np.sqrt(sum(np.sum((solver @ columns) ** 2, axis=1) for columns in _white_specimens(noises, whitener)))
-    own = max(scatter.deviations) * np.abs(plain.parameters)
-    size = np.hypot(own, moved * plain.coordinates.slopes(plain.parameters))
-    return bool((np.abs(refitted.parameters - plain.parameters) > NOISE.farthest_move * size).any())
+def _leaves_a_gap(fit: Refit) -> bool:
+    """Whether more than noise and what specimens may differ by is left, as the noise weighs it."""
+    count = len(fit.residual)
+    return bool(fit.chi_square > count + SEARCH.certain_gap * np.sqrt(2.0 * count))
 
 
 def _white_specimens(noises: Sequence[NoiseModel], whitener: Whitener) -> list[FloatArray]:

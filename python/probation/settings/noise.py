@@ -143,12 +143,6 @@ class NoiseSettings:
         "-",
         "Probability beyond which a specimen's deviations are not larger: what is missing there is not the specimen's.",
     )
-    farthest_move: float = chosen(
-        5.0,
-        "standard deviations",
-        "Standard deviations, by the specimens' scatter, by which parameters may move once specimens may differ and "
-        "the misfit grows.",
-    )
     most_left_to_specimens: float = chosen(
         1.25,
         "-",
