@@ -92,7 +92,8 @@ format: $(VENV)/.lint  ## rewrite the sources as lint wants them
 
 sanitize: $(VENV)/.engine-tests  ## C++ tests, tests/boundary and tests/verification under address and undefined-behaviour sanitizers
 	@$(BIN)/cmake -G Ninja -DCMAKE_MAKE_PROGRAM=$(BIN)/ninja -S . -B build/sanitize --log-level=WARNING -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-	    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' -DPROBATION_SANITIZE=ON -DPROBATION_WERROR=$(WERROR) \
+	    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=6 \
+	    -DPROBATION_SANITIZE=ON -DPROBATION_WERROR=$(WERROR) \
 	    -DPROBATION_CPP_TESTS=ON -DPython_EXECUTABLE=$(BIN)/python \
 	    -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	@$(BIN)/cmake --build build/sanitize
