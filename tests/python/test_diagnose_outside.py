@@ -3,12 +3,12 @@
 import json
 import re
 from dataclasses import replace
-from itertools import count
 
 import pytest
 
 from campaigns.measured import DATA
 from probation import Campaign, Specimens, diagnose
+from probation.diagnosis.search import Search
 
 OUTSIDE = DATA / "outside"
 pytestmark = pytest.mark.skipif(not OUTSIDE.is_dir(), reason="the campaigns are not beside the checkout")
@@ -54,21 +54,25 @@ def test_a_search_over_all_effects_finds_what_explains_the_records_to_their_nois
     assert not re.search(r"\d{12}", summary)
 
 
-def ended(seconds, monkeypatch):
-    """A search for a truth that shows only jointly with another effect; a second passes with every look at the clock.
+def ended(monkeypatch, at):
+    """A search for a truth that shows only jointly with another effect, ended as it comes to one of its steps."""
+    passed, step = [0.0], getattr(Search, at)
 
-    Some 680 s go with single effects, 850 s with all.
-    """
-    monkeypatch.setattr("probation.diagnosis.budget.monotonic", count().__next__)
+    def late(*arguments):
+        passed[0] = 20.0
+        return step(*arguments)
+
+    monkeypatch.setattr(Search, at, late)
+    monkeypatch.setattr("probation.diagnosis.budget.monotonic", lambda: passed[0])
     campaign = replace(Campaign.load(OUTSIDE / "relaxation-full-search-loses-it"), specimens=Specimens("none"))
-    return diagnose(campaign, design=False, budget=seconds)
+    return diagnose(campaign, design=False, budget=20.0)
 
 
-@pytest.mark.parametrize("seconds", [100.0, 380.0], ids=["among first steps", "among last steps"])
-def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(seconds, monkeypatch):
-    found, truth = ended(seconds, monkeypatch), "rate_dependent_relaxation"
+@pytest.mark.parametrize("at", ["_singles", "_further"], ids=["before first steps", "before last steps"])
+def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(at, monkeypatch):
+    found, truth = ended(monkeypatch, at), "rate_dependent_relaxation"
     assert "nothing that was tried explains it" in found.headline
-    end = rf"; the budget of {seconds:g} s ended the search: \d+ of 27 effects were not refitted to the end\.$"
+    end = r"; the budget of 20 s ended the search: \d+ of 27 effects were not refitted to the end\.$"
     assert re.search(end, found.headline)
     assert max(each.probability for each in found.effects if each.name not in (truth, "unknown")) < 0.9
     assert found.best.probability < 0.9
@@ -78,10 +82,10 @@ def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(seconds, monkey
 
 
 def test_a_search_that_is_ended_among_combinations_keeps_the_cause_that_it_has_found(monkeypatch):
-    found = ended(750.0, monkeypatch)
+    found = ended(monkeypatch, "_rivals_jointly")
     assert found.best.effects == ("rate_dependent_relaxation",)
     assert found.headline.startswith("Of what was tried, rate-dependent relaxation explains the gap")
-    assert found.headline.endswith("the budget of 750 s ended the search: not all was tried jointly.")
+    assert found.headline.endswith("the budget of 20 s ended the search: not all was tried jointly.")
 
 
 def test_specimens_that_differ_are_no_gap():
