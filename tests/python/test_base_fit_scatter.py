@@ -1,4 +1,4 @@
-"""How far the law's parameters may move once specimens are let differ."""
+"""The law's parameters once specimens may differ."""
 
 import numpy as np
 import pytest

@@ -313,8 +313,8 @@ def fit_views(law: GapLaw, views: Sequence[RecordView], specimens: Specimens) ->
     if scatter.any:
         plain, scattered = fit, with_scatter(residuals, columns, scatter)
         begun = fitted_noises(scattered)
-        # Specimens that differ hold all of a gap, or the law misses the records for another reason: then what is left
-        # beside them leads the parameters astray. What is so after one turn is so after all that follow.
+        # Specimens that differ explain all that the law misses, or the law errs in another way. Then what they leave
+        # leads the parameters astray, and the first turn that does so is the last.
         for turn in _turns(model, plain.parameters, scattered, begun):
             fit, noises, residuals = turn
             held = specimens_hold_the_gap(model, alike.noises, plain.parameters, fit.parameters)
@@ -353,9 +353,9 @@ def specimens_hold_the_gap(
 ) -> bool:
     """Whether the records are missed by more after a refit in which specimens may differ.
 
-    Then the law misses the records for another reason. Deviations of many standard deviations cost little against a
-    strong gap, and the misfit counts only along what they do not explain: the parameters follow that to values without
-    meaning, and no search for an effect can begin there.
+    If that explains them, so it should be. If it leaves a gap, the law errs in another way. Deviations of many standard
+    deviations cost little against a strong gap, and the misfit counts only along what they do not explain: the
+    parameters follow that to values without meaning, and no search for an effect can begin there.
 
     Parameters
     ----------

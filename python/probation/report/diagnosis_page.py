@@ -177,8 +177,8 @@ def _caption(diagnosis: Diagnosis, record: str) -> str:
 def _which(diagnosis: Diagnosis) -> Section:
     text = (
         "Each bar is the probability that this explanation is the right one, given the data and what is physically "
-        "plausible; all together make 100 %. Starred bars are those that the data cannot distinguish from the best: "
-        "treat them as one answer with several names."
+        "plausible; all together make 100 %. Starred bars are not excluded by the data: treat them as one answer with "
+        "several names."
     )
     checks = (
         "Besides its probability an explanation has to pass checks: does it predict records that it was not fitted "

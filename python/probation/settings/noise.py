@@ -147,7 +147,7 @@ class NoiseSettings:
         1.25,
         "-",
         "Misfit after a refit in which specimens may differ over that before, specimens counted as alike, beyond "
-        "which their deviations hold what the law misses; the refit is given up.",
+        "which their deviations hold what the law misses; the refit is given up where it leaves a gap all the same.",
     )
     on_grid: float = chosen(0.02, "step", "Largest rms distance from the grid, as a fraction of its step.")
     fewest_values: int = chosen(8, "values", "Fewer different values say nothing of a grid.")
