@@ -470,6 +470,18 @@ def test_an_amplifier_that_ends_softly_in_every_test():
     assert found.shrink.identify.after_MPa < 1.3 * 0.04
 
 
+def test_a_characteristic_that_bends_in_every_test():
+    """One cell reads 0.2 % more per MPa of nominal stress, whatever the largest force."""
+
+    def bent(index, time, strain):
+        stress = LAW.stress(time, strain)
+        return stress * (1.0 + 0.002 * stress * np.exp(-strain))
+
+    found = named(ramps(bent), "force_gain")
+    assert (found.best.records, found.best.forms) == (("at-0.006", "at-0.008", "at-0.014"), ("characteristic",))
+    assert value(found, "gain_bend_at_10MPa") == pytest.approx(0.02, rel=0.3)
+
+
 def test_a_characteristic_that_bends():
     """One record's cell reads 1 % less at half of the largest force, and 3.5 % less at all of it."""
 

@@ -545,6 +545,13 @@ def test_a_wrong_section_is_a_factor():
     np.testing.assert_allclose(found, 970.0 * strain, rtol=1e-12)
 
 
+def test_a_cell_whose_characteristic_bends_reads_a_square_of_the_force():
+    """By 2 % more at a nominal stress of 10 MPa, in any record."""
+    found, _, strain = faulty("force_gain", "characteristic", (0.02, 1.0))
+    nominal = 1000.0 * strain * np.exp(-strain)
+    np.testing.assert_allclose(found, 1000.0 * strain * (1.0 + 0.002 * nominal), rtol=1e-10, atol=1e-10)
+
+
 def test_a_wrong_gauge_length_is_a_factor_of_the_elongation():
     """1.04 times the elongation was recorded; the true stress was made of the force and the recorded strain."""
     found, _, strain = faulty("strain_gain", "factor", (0.04,))

@@ -29,14 +29,35 @@ def _bending(view: RecordView, values: Values, stress: FloatArray) -> FloatArray
     return np.asarray((1.0 + values[0] * used ** values[1]) * stress)
 
 
+REFERENCE_STRESS = 10.0
+"""Nominal stress at which a cell whose characteristic bends in all tests has the excess of its amplitude [MPa]."""
+
+_POWER = EffectParameter(
+    name="power",
+    unit="",
+    lower=0.3,
+    upper=4.0,
+    centre=1.4,
+    scale=0.5,
+    log=True,
+    starts=(1.0, 2.0),
+    reason="1 for the square, 2 for the cube of the force in a characteristic",
+)
+
+
+def _characteristic(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """F (1 + a (n / 10 MPa)^b), n the nominal stress: one cell for all records, whatever their largest force."""
+    return np.asarray((1.0 + values[0] * (np.abs(stress) / view.stretch / REFERENCE_STRESS) ** values[1]) * stress)
+
+
 EFFECT = Effect(
     name="force_gain",
     title="gain of the force",
     physics=(
         "The load cell's sensitivity, or the measured initial section, is wrong by a factor; or the bridge of the cell "
         "warms up, and its sensitivity drifts while the test runs, ever more slowly; or its characteristic bends.\n"
-        "Amplitude: relative excess of the recorded stress, or by the end of a record, or at its largest force. In all "
-        "records alike a factor hides in E_u and G."
+        "Amplitude: relative excess of the recorded stress, by the end of a record, or at its largest force; at 10 MPa "
+        "of nominal stress, if the cell of all records bends. In all records alike a factor hides in E_u and G."
     ),
     source=(
         "ISO 7500-1; ISO 527-1 (measurement of the section); OIML R 60 (temperature and the sensitivity of a cell); "
@@ -76,20 +97,22 @@ EFFECT = Effect(
             "bending",
             (
                 EffectParameter("gain_bend", "", -0.5, 0.5, 0.02, "class 1 cells to 1 %, one that was overloaded more"),
-                EffectParameter(
-                    name="power",
-                    unit="",
-                    lower=0.3,
-                    upper=4.0,
-                    centre=1.4,
-                    scale=0.5,
-                    log=True,
-                    starts=(1.0, 2.0),
-                    reason="1 for the square, 2 for the cube of the force in a characteristic",
-                ),
+                _POWER,
             ),
             recorded_stress=_bending,
             placements=("one",),
+            variant=True,
+        ),
+        Form(
+            "characteristic",
+            (
+                EffectParameter(
+                    "gain_bend_at_10MPa", "", -0.5, 0.5, 0.01, "class 1 cells to 1 %; specimens are as strong as that"
+                ),
+                _POWER,
+            ),
+            recorded_stress=_characteristic,
+            placements=("all",),
             variant=True,
         ),
     ),
