@@ -32,7 +32,6 @@ from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
 from probation.settings.noise import NOISE
-from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -372,8 +371,7 @@ def specimens_hold_the_gap(
 
 def _leaves_a_gap(fit: Refit) -> bool:
     """Whether more than noise and what specimens may differ by is left, as the noise weighs it."""
-    count = len(fit.residual)
-    return bool(fit.chi_square > count + SEARCH.certain_gap * np.sqrt(2.0 * count))
+    return fit.chi_square > NOISE.left_beside_specimens * len(fit.residual)
 
 
 def _white_specimens(noises: Sequence[NoiseModel], whitener: Whitener) -> list[FloatArray]:

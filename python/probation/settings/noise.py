@@ -143,6 +143,12 @@ class NoiseSettings:
         "-",
         "Probability beyond which a specimen's deviations are not larger: what is missing there is not the specimen's.",
     )
+    left_beside_specimens: float = chosen(
+        1.1,
+        "-",
+        "Misfit squared over the noise's, specimens that differ allowed for, beyond which these leave a gap: the noise "
+        "is known to some per cent.",
+    )
     most_left_to_specimens: float = chosen(
         1.25,
         "-",
