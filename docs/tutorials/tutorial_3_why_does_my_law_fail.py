@@ -187,9 +187,9 @@ print(fewer.next_tests[0].what)
 for explanation in fewer.explanations[:3]:
     print(f"{explanation.probability:5.0%}  {' + '.join(explanation.effects)}")
 
-# >   48%  self_heating
-# >   27%  damage
-# >    8%  force_gain
+# >   51%  self_heating
+# >   28%  damage
+# >    6%  unknown
 
 # %%
 # What to do with a name

@@ -33,6 +33,11 @@ def visible(effects: Iterable[Effect], views: Sequence[RecordView]) -> tuple[Eff
     return tuple(kept)
 
 
+def several(views: Sequence[RecordView]) -> bool:
+    """Whether there is more than one record: what acts in all of them is another thing than what acts in one."""
+    return len(views) > 1
+
+
 def unloads(views: Sequence[RecordView]) -> bool:
     """Whether the strain is taken back anywhere: by a part of the largest, or by less with a good part of the force.
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.visible import several
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
@@ -113,6 +114,7 @@ EFFECT = Effect(
             ),
             recorded_stress=_characteristic,
             placements=("all",),
+            needs=several,
             variant=True,
         ),
     ),
