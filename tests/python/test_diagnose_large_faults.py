@@ -233,5 +233,5 @@ def test_a_compliance_does_not_turn_noise_of_the_force_into_strain(slack):
 
 def test_a_force_that_is_not_found_is_no_prediction():
     """Else the recorded force, from which its search begins, would be returned as what the law predicts."""
-    with pytest.raises(probation.ConvergenceError, match="was not found"):
+    with pytest.raises(probation.ConvergenceError, match="in balance"):
         OwnForce(lambda stress: 1.0 + np.abs(stress), np.ones(20))
