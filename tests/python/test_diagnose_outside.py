@@ -3,6 +3,8 @@
 import json
 import re
 from dataclasses import replace
+from functools import partial
+from itertools import count
 
 import pytest
 
@@ -54,23 +56,37 @@ def test_a_search_over_all_effects_finds_what_explains_the_records_to_their_nois
     assert not re.search(r"\d{12}", summary)
 
 
-def ended(monkeypatch, at):
-    """A search for a truth that shows only jointly with another effect, ended as it comes to one of its steps."""
-    passed, step = [0.0], getattr(Search, at)
-
-    def late(*arguments):
-        passed[0] = 20.0
-        return step(*arguments)
-
-    monkeypatch.setattr(Search, at, late)
-    monkeypatch.setattr("probation.diagnosis.budget.monotonic", lambda: passed[0])
+def ended(monkeypatch, clock):
+    """A search for a truth that shows only jointly with another effect, ended after 20 s of a clock."""
+    monkeypatch.setattr("probation.diagnosis.budget.monotonic", clock)
     campaign = replace(Campaign.load(OUTSIDE / "relaxation-full-search-loses-it"), specimens=Specimens("none"))
     return diagnose(campaign, design=False, budget=20.0)
 
 
-@pytest.mark.parametrize("at", ["_singles", "_further"], ids=["before first steps", "before last steps"])
-def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(at, monkeypatch):
-    found, truth = ended(monkeypatch, at), "rate_dependent_relaxation"
+def late(monkeypatch, at):
+    """A clock on which all time has passed once a search comes to one of its steps."""
+    passed, step = [0.0], getattr(Search, at)
+
+    def passing(*arguments):
+        passed[0] = 20.0
+        return step(*arguments)
+
+    monkeypatch.setattr(Search, at, passing)
+    return lambda: passed[0]
+
+
+def at_every_look(_):
+    """A clock that goes on by 0.2 s whenever it is asked; single effects take more than 80 s of it."""
+    return count(0.0, 0.2).__next__
+
+
+@pytest.mark.parametrize(
+    "clock",
+    [at_every_look, partial(late, at="_singles"), partial(late, at="_further")],
+    ids=["among first steps", "before first steps", "before last steps"],
+)
+def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(clock, monkeypatch):
+    found, truth = ended(monkeypatch, clock(monkeypatch)), "rate_dependent_relaxation"
     assert "nothing that was tried explains it" in found.headline
     end = r"; the budget of 20 s ended the search: \d+ of 27 effects were not refitted to the end\.$"
     assert re.search(end, found.headline)
@@ -82,7 +98,7 @@ def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(at, monkeypatch
 
 
 def test_a_search_that_is_ended_among_combinations_keeps_the_cause_that_it_has_found(monkeypatch):
-    found = ended(monkeypatch, "_rivals_jointly")
+    found = ended(monkeypatch, late(monkeypatch, "_rivals_jointly"))
     assert found.best.effects == ("rate_dependent_relaxation",)
     assert found.headline.startswith("Of what was tried, rate-dependent relaxation explains the gap")
     assert found.headline.endswith("the budget of 20 s ended the search: not all was tried jointly.")

@@ -97,7 +97,7 @@ def write_comparison_page(comparison: Comparison, path: Path) -> None:
 
 
 def _explanations(comparison: Comparison) -> Table:
-    """The most probable explanations; a star marks those that the data cannot distinguish."""
+    """The most probable explanations; a star marks those that the data do not exclude."""
     rows = tuple(
         (
             "★" if explanation in comparison.answer_set else "",

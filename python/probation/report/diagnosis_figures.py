@@ -92,7 +92,7 @@ def _axis(curves: RecordCurves) -> tuple[FloatArray, str]:
 
 
 def probability_figure(diagnosis: Diagnosis) -> Figure:
-    """A bar for every explanation that matters; those that the data cannot distinguish from the best are starred."""
+    """A bar for every explanation that matters; those that the data do not exclude are starred."""
     shown = _shown(diagnosis)
     others = len(diagnosis.explanations) - len(shown)
     names = [fill(explanation_name(explanation, diagnosis), _LINE) for explanation in shown]

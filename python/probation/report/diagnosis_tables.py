@@ -82,7 +82,7 @@ def held_out_table(diagnosis: Diagnosis) -> Table:
 
 
 def which_table(diagnosis: Diagnosis, most: int | None = None) -> tuple[Table, str]:
-    """Explanations, the most probable first; a star marks those that the data cannot distinguish from the best."""
+    """Explanations, the most probable first; a star marks those that the data do not exclude."""
     shown = list(diagnosis.explanations)
     rows = []
     for shown_explanation in shown:

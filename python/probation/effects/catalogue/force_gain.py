@@ -14,23 +14,7 @@ if TYPE_CHECKING:
     from probation.effects.record_view import RecordView
 
 
-def _gain(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    return (1.0 + values[0]) * stress
-
-
-def _drifting(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """From nothing at the start of a record to a at its end, as 1 - e^(-t/T), T in parts of the record."""
-    part = np.expm1(-view.elapsed / (values[1] * view.duration)) / np.expm1(-1.0 / values[1])
-    return np.asarray((1.0 + values[0] * part) * stress)
-
-
-def _bending(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
-    """In proportion to a power of the force: nothing at rest, a at the largest one that was recorded."""
-    used = np.abs(stress) / view.stretch / max(float(np.max(np.abs(view.nominal_data))), 1e-300)
-    return np.asarray((1.0 + values[0] * used ** values[1]) * stress)
-
-
-REFERENCE_STRESS = 10.0
+_REFERENCE_STRESS = 10.0
 """Nominal stress at which a cell whose characteristic bends in all tests has the excess of its amplitude [MPa]."""
 
 _POWER = EffectParameter(
@@ -46,9 +30,29 @@ _POWER = EffectParameter(
 )
 
 
+def _gain(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    return (1.0 + values[0]) * stress
+
+
+def _drifting(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """From nothing at the start of a record to a at its end, as 1 - e^(-t/T), T in parts of the record."""
+    part = np.expm1(-view.elapsed / (values[1] * view.duration)) / np.expm1(-1.0 / values[1])
+    return np.asarray((1.0 + values[0] * part) * stress)
+
+
+def _bending(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """In proportion to a power of the force: nothing at rest, a at the largest one that was recorded."""
+    used = np.abs(stress) / view.stretch / max(float(np.max(np.abs(view.nominal_data))), 1e-300)
+    return _bent(values, used, stress)
+
+
 def _characteristic(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """F (1 + a (n / 10 MPa)^b), n the nominal stress: one cell for all records, whatever their largest force."""
-    return np.asarray((1.0 + values[0] * (np.abs(stress) / view.stretch / REFERENCE_STRESS) ** values[1]) * stress)
+    return _bent(values, np.abs(stress) / view.stretch / _REFERENCE_STRESS, stress)
+
+
+def _bent(values: Values, used: FloatArray, stress: FloatArray) -> FloatArray:
+    return np.asarray((1.0 + values[0] * used ** values[1]) * stress)
 
 
 EFFECT = Effect(
@@ -107,9 +111,7 @@ EFFECT = Effect(
         Form(
             "characteristic",
             (
-                EffectParameter(
-                    "gain_bend_at_10MPa", "", -0.5, 0.5, 0.01, "class 1 cells to 1 %; specimens are as strong as that"
-                ),
+                EffectParameter("gain_bend_at_10MPa", "", -0.5, 0.5, 0.01, "class 1 cells to 1 %"),
                 _POWER,
             ),
             recorded_stress=_characteristic,
