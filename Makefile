@@ -79,8 +79,12 @@ lint: $(VENV)/.engine-tests $(VENV)/.lint  ## ruff, mypy, clang-format, clang-ti
 	@$(BIN)/ruff format --check --quiet .
 	@$(BIN)/mypy
 	@$(BIN)/clang-format --dry-run -Werror $(CPP_FILES)
+	@# How every file is compiled by itself; nothing is built there.
+	@$(BIN)/cmake -G Ninja -DCMAKE_MAKE_PROGRAM=$(BIN)/ninja -S . -B build/tidy --log-level=WARNING -DCMAKE_UNITY_BUILD=OFF \
+	    -DPROBATION_CPP_TESTS=ON -DPython_EXECUTABLE=$(BIN)/python \
+	    -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	@printf '%s\n' $(filter-out bench/% tests/cpp/consumer/%,$(filter %.cpp,$(CPP_FILES))) | xargs -P "$$(nproc)" -n 1 \
-	    $(BIN)/clang-tidy -p build/editable --quiet --extra-arg=-Wno-unknown-warning-option \
+	    $(BIN)/clang-tidy -p build/tidy --quiet --extra-arg=-Wno-unknown-warning-option \
 	    --extra-arg=-Wno-ignored-optimization-argument \
 	    >build/clang-tidy.log 2>&1 || { grep -E -A4 '(warning|error):' build/clang-tidy.log; exit 1; }
 	@echo "lint: clean"
@@ -92,7 +96,7 @@ format: $(VENV)/.lint  ## rewrite the sources as lint wants them
 
 sanitize: $(VENV)/.engine-tests  ## C++ tests, tests/boundary and tests/verification under address and undefined-behaviour sanitizers
 	@$(BIN)/cmake -G Ninja -DCMAKE_MAKE_PROGRAM=$(BIN)/ninja -S . -B build/sanitize --log-level=WARNING -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-	    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=6 \
+	    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' \
 	    -DPROBATION_SANITIZE=ON -DPROBATION_WERROR=$(WERROR) \
 	    -DPROBATION_CPP_TESTS=ON -DPython_EXECUTABLE=$(BIN)/python \
 	    -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
