@@ -185,11 +185,11 @@ class Refitting:
         more and a specimen still deviates unusually. A search that explains less than no effect does goes on, too: a
         fault in one record pulls the law of specimens that are alike.
         """
-        if not self.base.scatter.any:
-            return refit(self.base.problem.with_model(model), start, most_steps=steps)
         problem = self.base.problem.with_model(RememberingModel(model))
         if isinstance(start, Refit):
             start = replace(start, problem=problem)
+        if not self.base.scatter.any:
+            return refit(problem, start, most_steps=steps)
         try:
             return self._refit(problem, start, steps)
         except UNSOLVABLE:  # perhaps where it went on without derivatives; then it takes twice the time

@@ -316,22 +316,29 @@ class CampaignModel:
         if not any(cause.form.own_force for cause, _ in causes):
             return self._driven(view, base, causes, sensitivity)
 
-        def under(stress: FloatArray, *, sensitivity: bool = False) -> Specimen:
-            return self._driven(view.quietened(stress), base, causes, sensitivity)
-
-        start = view.smooth_true_data
-        if near is not None:  # a small change is lost within `settled` of the force, unless its first order is taken
-            start = near.moved(under(near.stress).stress)
-        frame = self._frame(view.quietened(start), base, causes)
-        force = OwnForce(lambda stress: under(stress).stress, start, frame.answer, settled)
+        force = self.balance(view, base, causes, settled, near)
         if not sensitivity:
             return Specimen(force.stress, None, force)
-        slopes = under(force.stress, sensitivity=True).sensitivity
+        slopes = self._driven(view.quietened(force.stress), base, causes, sensitivity=True).sensitivity
         assert slopes is not None
         answers = np.empty_like(slopes)  # of no column, where all of the law is held
         for column, slope in enumerate(slopes.T):
             answers[:, column] = force.answer(slope, SLOPE)
         return Specimen(force.stress, answers, force)
+
+    def balance(
+        self, view: RecordView, base: FloatArray, causes: CauseValues, settled: float, near: OwnForce | None = None
+    ) -> OwnForce:
+        """The force at which frame and specimen are in balance; as in `specimen`."""
+
+        def under(stress: FloatArray) -> FloatArray:
+            return self._driven(view.quietened(stress), base, causes, sensitivity=False).stress
+
+        start = view.smooth_true_data
+        if near is not None:  # a small change is lost within `settled` of the force, unless its first order is taken
+            start = near.moved(under(near.stress))
+        frame = self._frame(view.quietened(start), base, causes)
+        return OwnForce(under, start, frame.answer, settled)
 
     def _driven(self, view: RecordView, base: FloatArray, causes: CauseValues, sensitivity: bool) -> Specimen:
         """The same with the force that the view has."""

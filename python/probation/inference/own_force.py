@@ -26,7 +26,10 @@ MOST_NEWTON_STEPS = 12
 """Newton's steps; from a force that is recorded it takes two to four."""
 
 MOST_DIRECTIONS = 24
-"""Directions of one step; it takes two to eight."""
+"""Directions of one answer; it takes two to eight."""
+
+MOST_KEPT = 72
+"""Directions that answers at one force share: what an answer finds, the next one need not look for."""
 
 PARTS = (1.0, 0.5, 0.25, 0.1, 0.03)
 """Parts of a step that are tried; the last is taken as it is."""
@@ -89,6 +92,8 @@ class OwnForce:
         self.stress = start
         self._size = max(float(np.max(np.abs(start))), 1e-300)
         self._next = stress(start)
+        self._directions, self._products = np.empty((2, MOST_KEPT, len(start)))
+        self._known = 0
         with np.errstate(over="ignore", invalid="ignore"):  # far from any force that there is
             left = self._next - start
             norms, part_left = [float(np.linalg.norm(left))], ROUGHEST
@@ -108,7 +113,7 @@ class OwnForce:
                     norm = float(np.linalg.norm(left))
                 if norm < norms[-1]:
                     break
-            self.stress, self._next = there, beyond
+            self.stress, self._next, self._known = there, beyond, 0
             norms.append(norm)
             part_left = min(max((norm / norms[-2]) ** 2, FINEST), ROUGHEST)
         if not np.max(np.abs(left)) <= max(GOOD_ENOUGH, settled) * self._size:
@@ -123,9 +128,14 @@ class OwnForce:
         size = float(np.linalg.norm(change))
         if size == 0.0:
             return change
-        solution, rest = np.zeros(len(change)), change
-        directions, products = np.empty((2, MOST_DIRECTIONS, len(change)))
-        for k in range(MOST_DIRECTIONS):
+        if self._known > MOST_KEPT - MOST_DIRECTIONS:
+            self._known = 0
+        directions, products = self._directions, self._products
+        along = products[: self._known] @ change
+        solution, rest = along @ directions[: self._known], change - along @ products[: self._known]
+        for k in range(self._known, self._known + MOST_DIRECTIONS):
+            if np.linalg.norm(rest) <= left * size:
+                break
             direction = self._about(rest)
             product = self._without_feedback(direction)
             for _ in range(2):  # Gram-Schmidt twice
@@ -134,10 +144,9 @@ class OwnForce:
                 direction = direction - along @ directions[:k]
             length = max(float(np.linalg.norm(product)), 1e-300)
             directions[k], products[k] = direction / length, product / length
+            self._known = k + 1
             part = float(products[k] @ rest)
             solution, rest = solution + part * directions[k], rest - part * products[k]
-            if np.linalg.norm(rest) <= left * size:
-                break
         return solution
 
     def _without_feedback(self, direction: FloatArray) -> FloatArray:

@@ -8,6 +8,9 @@ from probation.inference.model import CampaignModel
 
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
+    from probation.effects.record_view import RecordView
+    from probation.inference.model import CauseValues
+    from probation.inference.own_force import OwnForce
 
 KEPT = 4
 """Parameters whose answers are kept."""
@@ -16,12 +19,14 @@ KEPT = 4
 class RememberingModel(CampaignModel):
     """The same model in one search of one thread: what was worked out for the same parameters is not solved again.
 
-    A refit of specimens that differ begins where one of specimens that are alike ended. Only the noise is another.
+    A refit of specimens that differ begins where one of specimens that are alike ended: only the noise is another. And
+    a search asks for its derivatives where it has just been: the force that balances frame and specimen is known.
     """
 
     def __init__(self, model: CampaignModel) -> None:
         super().__init__(model.law, model.views, model.causes)
         self._kept: dict[bytes, tuple[FloatArray, FloatArray]] = {}
+        self._last: dict[str, tuple[object, OwnForce]] = {}
 
     def residual(self, parameters: FloatArray) -> FloatArray:
         """As in `CampaignModel`."""
@@ -38,3 +43,14 @@ class RememberingModel(CampaignModel):
                 del self._kept[next(iter(self._kept))]
         self._kept[key] = known  # the latest stays longest
         return known[0].copy(), known[1].copy()
+
+    def balance(
+        self, view: RecordView, base: FloatArray, causes: CauseValues, settled: float, near: OwnForce | None = None
+    ) -> OwnForce:
+        """As in `CampaignModel`."""
+        asked = (base.tobytes(), [values for _, values in causes], settled)
+        known, force = self._last.get(view.id, (None, None))
+        if force is None or known != asked:
+            force = super().balance(view, base, causes, settled, near)
+            self._last[view.id] = asked, force
+        return force
