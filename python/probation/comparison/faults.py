@@ -12,7 +12,6 @@ import numpy as np
 
 from probation._complaint import suggestion
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.effects.large_forms import crosshead_slack
 from probation.effects.registry import effects
 from probation.errors import InputError
 from probation.law.modification import Modification
@@ -60,12 +59,6 @@ MATERIAL = Effect(
 LEFT_OUT = ("temperature_drift", "volume_change", "neck_triaxiality", "slack_strip", "force_saturation")
 
 
-def _of_crosshead(known: Effect) -> Effect:
-    """Slack is an elongation that the crosshead travels in vain, and so not quite a constant true strain."""
-    forms = (replace(form, driving_strain=crosshead_slack) if form.name == "slack" else form for form in known.forms)
-    return replace(known, forms=tuple(forms))
-
-
 def considered(names: Iterable[str] | None = None) -> tuple[Effect, ...]:
     """What a change is explained by: the catalogue's faults of the rig, and another material.
 
@@ -89,7 +82,7 @@ def considered(names: Iterable[str] | None = None) -> tuple[Effect, ...]:
         for effect in rig
         if effect.forms[0].sharp is None
     ]
-    known = {effect.name: effect for effect in (*map(_of_crosshead, smooth), MATERIAL)}
+    known = {effect.name: effect for effect in (*smooth, MATERIAL)}
     if names is None:
         return tuple(known.values())
     for name in (chosen := list(names)):

@@ -49,15 +49,20 @@ def _passing(view: RecordView, values: Values, stress: FloatArray) -> FloatArray
 
 
 def _necks(views: Sequence[RecordView]) -> bool:
-    """Whether the strain rate surges anywhere under grips at one speed, or a section was strained beyond yield.
+    """Whether the rate surges anywhere under grips at one speed, or a section was strained beyond yield.
+
+    The rate of the true strain, or that of the elongation, which stays at one speed where nothing necks: in a section
+    that is in the neck from yield on, the former grows little.
 
     A machine that keeps the strain rate does so in the section that is measured, and that one is in a neck where the
     specimen necks (G'Sell et al. 1992): its rate tells nothing of it.
     """
     for view in views:
         if view.control == "displacement-rate":
-            rate = view.rate
-            if float(np.max(rate)) > EFFECTS.necking_rate_ratio * float(np.median(rate)):
+            if any(
+                float(np.max(rate)) > EFFECTS.necking_rate_ratio * float(np.median(rate))
+                for rate in (view.rate, view.rate * view.stretch)
+            ):
                 return True
         elif float(np.max(view.largest_strain)) > EFFECTS.necking_strain:
             return True

@@ -45,15 +45,15 @@ LEAST_STRETCH = 0.1
 
 
 def _slack(view: RecordView, values: Values) -> FloatArray:
-    """Slack is taken up first: the specimen sees nothing until the strain exceeds the first reading by a."""
-    strain, first = view.true_strain, view.recorded_strain[0]
-    return np.asarray(np.maximum(strain - values[0], np.minimum(strain, first)))
+    """Slack is taken up first: the specimen sees nothing until the elongation exceeds the first reading by a."""
+    elongation, first = np.expm1(view.true_strain), np.expm1(view.recorded_strain[0])
+    return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, first))))
 
 
 def _toe(view: RecordView, values: Values) -> FloatArray:
-    """Slack that is taken up gradually: the specimen misses a tanh(e / e_t), and never moves back."""
-    reach = max(values[1], values[0])
-    return view.true_strain - values[0] * np.tanh(np.maximum(view.true_strain, 0.0) / reach)
+    """Slack that is taken up gradually: the elongation u misses a tanh(u / u_t), and never falls."""
+    elongation, reach = np.expm1(view.true_strain), max(values[1], values[0])
+    return np.asarray(np.log1p(elongation - values[0] * np.tanh(np.maximum(elongation, 0.0) / reach)))
 
 
 def _shift(view: RecordView, values: Values) -> FloatArray:
