@@ -66,6 +66,9 @@ NAMES_IN_THE_CONTRACT = [
     "slack_strip",
     "neck_triaxiality",
     "serrated_flow",
+    "orientation",
+    "guide_friction",
+    "ageing",
 ]
 
 ALL_FORMS = [(effect.name, form.name) for effect in effects() for form in effect.forms]
@@ -170,6 +173,7 @@ KINKED = {
     "back_stress",
     "slack_strip",
     "serrated_flow",
+    "guide_friction",
 }
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import cumulative_trapezoid, quad, simpson, solve_ivp
 from scipy.optimize import brentq
 from scipy.special import erfcx, expi
 
@@ -154,6 +154,58 @@ def test_a_network_built_from_a_rate_on_remembers_the_path():
     parts = [(1.0 + rate / views[0].reference_rate / 2.0) / (1.0 + 1.0 / 2.0) for rate in (1e-2, 1e-3)]
     expected = 2.0 * math.sqrt(parts[0] * parts[1]) ** 0.1 * (math.e**2 - 1.0 / math.e)
     assert found[-1] == pytest.approx(expected, rel=2e-3)
+
+
+FROZEN = probation.Law(unrelaxed_modulus=1000.0, tau_max=1e12, hardening_modulus=2.0, spectrum=ONE_MODE)
+"""Nothing relaxes: the stress is the integral of E_u over the strain."""
+
+
+def of_turned_lines(strain):
+    """Mean P_2 of lines that point anywhere at first and turn with the stretch, by Simpson's rule over their cosine."""
+    cosine = np.linspace(0.0, 1.0, 20001)
+    along, across = cosine * np.exp(strain), np.sqrt(1.0 - cosine**2) * np.exp(-0.5 * strain)
+    return simpson(1.5 * along**2 / (along**2 + across**2) - 0.5, x=cosine)
+
+
+def test_a_modulus_that_grows_with_the_orientation_is_felt_step_by_step():
+    found, _ = predicted(FROZEN, ramp(), "orientation", "modulus", (0.3,), substeps=4)
+    np.testing.assert_allclose(found, 1000.0 * np.expm1(0.3 * ramp().true_strain) / 0.3, rtol=1e-5, atol=0.01)
+    found, _ = predicted(FROZEN, ramp(), "orientation", "modulus_of_units", (0.3,), substeps=4)
+    order = np.array([of_turned_lines(strain) for strain in ramp().true_strain]) / 0.6
+    felt = cumulative_trapezoid(1.0 + 0.3 * order, ramp().true_strain, initial=0.0)
+    np.testing.assert_allclose(found, 1000.0 * felt, rtol=1e-5, atol=0.01)
+
+
+@pytest.mark.parametrize(
+    ("form", "measure"),
+    [("relaxation_time", float), ("relaxation_time_of_units", lambda strain: of_turned_lines(strain) / 0.6)],
+)
+def test_times_that_grow_with_the_orientation_are_those_of_an_independent_integration(form, measure):
+    """One mode: ds/dt = E_u rate - s / (tau e^(a p))."""
+    law = probation.Law(unrelaxed_modulus=1000.0, tau_max=20.0, hardening_modulus=0.0, spectrum=ONE_MODE)
+    record = ramp(samples=60)
+    found, _ = predicted(law, record, "orientation", form, (0.8,), substeps=40)
+    slope = RATE * 1000.0
+    solved = solve_ivp(
+        lambda t, s: slope - s / (20.0 * np.exp(0.8 * measure(RATE * t))),
+        (0.0, record.time[-1]), [0.0], t_eval=record.time, rtol=1e-9, atol=1e-9,
+    )  # fmt: skip
+    np.testing.assert_allclose(found, solved.y[0], rtol=1e-4, atol=1e-3)
+
+
+def test_a_material_that_ages_relaxes_by_its_own_clock():
+    """One mode after a quick start at one strain: ln s falls by the integral of 1 / (tau (1 + t / t_e)^m)."""
+    law = probation.Law(unrelaxed_modulus=1000.0, tau_max=50.0, hardening_modulus=0.0, spectrum=ONE_MODE)
+    time = np.linspace(0.0, 200.0, 2001)
+    strain = np.minimum(time / 0.1, 1.0) * 0.01
+    held = replace(ramp(samples=2001), time=time, true_strain=strain, sha256="")
+    found, _ = predicted(law, held, "ageing", "relaxation_time", (0.7, 30.0), substeps=4)
+    own = lambda t: 30.0 / 0.3 * ((1.0 + t / 30.0) ** 0.3 - 1.0)  # noqa: E731
+    expected = found[1] * np.exp(-(own(time[1:]) - own(0.1)) / 50.0)
+    np.testing.assert_allclose(found[1:], expected, rtol=1e-3)
+    stiffer, _ = predicted(FROZEN, ramp(), "ageing", "modulus", (0.1, 30.0), substeps=4)
+    felt = 1000.0 * RATE * 30.0 / 1.1 * ((1.0 + ramp().time / 30.0) ** 1.1 - 1.0)
+    np.testing.assert_allclose(stiffer, felt, rtol=1e-5, atol=0.01)
 
 
 def test_a_network_that_relaxes_fades_with_its_time():
@@ -705,12 +757,26 @@ def test_jaws_give_way_beyond_what_friction_holds():
     np.testing.assert_allclose(found, record.true_stress, rtol=2e-3, atol=0.01)
 
 
+@pytest.mark.parametrize("slack", [0.002, 0.031])
+def test_behind_slack_a_specimen_starts_as_it_would_without(slack):
+    """The law has a companion relation, and slack ends within a step: its rate jumps there."""
+    law = probation.Law(unrelaxed_modulus=3220.0, alpha=1.05, hardening_modulus=1.8, companion=WEISSENBERG_AS_PRINTED)
+    elongation = np.linspace(0.0, 1.0, 301)
+    record = replace(ramp(samples=301), time=elongation / RATE, true_strain=np.log1p(elongation), sha256="")
+    found, _ = predicted(law, record, "strain_offset", "slack", (slack,), scheme="sa3")
+    own = np.append(slack, elongation[elongation > slack])
+    seen = np.log1p(own - slack)
+    expected = (law.stress((own - slack) / RATE, seen, scheme="sa3") * np.exp(np.log1p(own) - seen))[1:]
+    off = np.abs(found[elongation > slack] - expected)
+    assert off[0] < 0.5
+    assert np.max(off[5:]) < 0.06
+
+
 def test_slack_is_taken_up_before_the_specimen_is_strained():
-    """E (e - a) once taut, nothing before; the stress was made with the recorded strain, e^a too large."""
+    """The elongation less a once taut, nothing before; the stress was made with the recorded strain."""
     found, _, strain = faulty("strain_offset", "slack", (0.02,))
-    taut = strain > 0.02
-    np.testing.assert_allclose(found[taut], 1000.0 * (strain[taut] - 0.02) * math.exp(0.02), rtol=1e-10)
-    assert np.all(found[~taut] == 0.0)
+    seen = np.log(np.maximum(np.exp(strain) - 0.02, 1.0))
+    np.testing.assert_allclose(found, 1000.0 * seen * np.exp(strain - seen), rtol=1e-10, atol=1e-10)
 
 
 @pytest.mark.parametrize("first", [-2e-5, 0.0, 2e-5])
@@ -723,17 +789,17 @@ def test_slack_begins_with_the_first_reading_whatever_its_noise(first, size):
     record = replace(record, true_strain=strain, sha256="")
     [view] = views_of(probation.Campaign(name="slack", records=(record,)))
     found = cause("strain_offset", form="slack").form.driving_strain(view, (size,))
-    np.testing.assert_allclose(found, np.where(strain - size > first, strain - size, first), rtol=0.0, atol=1e-15)
+    taut = np.log1p(np.expm1(strain) - size)
+    np.testing.assert_allclose(found, np.where(taut > first, taut, first), rtol=0.0, atol=1e-15)
 
 
 def test_a_toe_is_taken_up_gradually_and_never_backwards():
-    """The specimen sees e - a tanh(e / e_t), e_t no less than a: its strain never falls."""
-    found, _, strain = faulty("strain_offset", "toe", (0.02, 0.1))
-    lost = 0.02 * np.tanh(strain / 0.1)
-    np.testing.assert_allclose(found, 1000.0 * (strain - lost) * np.exp(lost), rtol=1e-10)
-    sudden, _, strain = faulty("strain_offset", "toe", (0.02, 0.001))
-    lost = 0.02 * np.tanh(strain / 0.02)
-    np.testing.assert_allclose(sudden, 1000.0 * (strain - lost) * np.exp(lost), rtol=1e-10)
+    """The specimen sees the elongation u - a tanh(u / u_t), u_t no less than a: its strain never falls."""
+    for asked, reach in ((0.1, 0.1), (0.001, 0.02)):
+        found, _, strain = faulty("strain_offset", "toe", (0.02, asked))
+        elongation = np.exp(strain) - 1.0
+        seen = np.log(1.0 + elongation - 0.02 * np.tanh(elongation / reach))
+        np.testing.assert_allclose(found, 1000.0 * seen * np.exp(strain - seen), rtol=1e-10, atol=1e-10)
 
 
 def test_a_wrong_zero_of_the_strain_only_bends_the_hardening():
@@ -973,6 +1039,25 @@ def cycles(samples=1501):
         noise=Noise(0.04, 0.0),
     )  # fmt: skip
     return record, 1000.0 * strain * np.exp(-strain)
+
+
+def test_a_guide_rubs_against_the_motion():
+    """0.4 MPa over the initial section: more on the way out, less on the way back, neither where it turns."""
+    record, force = cycles()
+    found, _ = predicted(bar(), record, "guide_friction", "sliding", (0.4,))
+    way = np.sign(np.diff(record.true_strain, prepend=0.0))
+    way[[0, 750, 1200]] = 0.0
+    np.testing.assert_allclose(found * np.exp(-record.true_strain), force + 0.4 * way, atol=1e-9)
+
+
+def test_friction_of_a_guide_builds_up_along_the_way_as_its_differential_equation_says():
+    """dz/dl = 1/w - z |dl|/(w dl), by the trapezoidal rule."""
+    record, force = cycles(6001)
+    found, _ = predicted(bar(), record, "guide_friction", "building_up", (0.4, 0.01))
+    slid = [0.0]
+    for step in np.diff(np.exp(record.true_strain)) / 0.01:
+        slid.append((slid[-1] * (1.0 - 0.5 * abs(step)) + step) / (1.0 + 0.5 * abs(step)))
+    np.testing.assert_allclose(found * np.exp(-record.true_strain), force + 0.4 * np.array(slid), atol=1e-4)
 
 
 def test_friction_that_builds_up_is_that_of_its_differential_equation():

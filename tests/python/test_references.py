@@ -6,7 +6,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs/references.md"
 
-NAME = r"(?:Le )?[A-Z](?:[^\W\d_]|['-])*[^\W\d_](?<!'s)"
+NAME = r"(?:(?:Le|van) )?[A-Z](?:[^\W\d_]|['-])*[^\W\d_](?<!'s)"
 CITATION = re.compile(
     rf"(?P<first>{NAME})(?:, (?:Le )?{NAME})*(?:,? (?:&|and|et) (?:Le Tallec|{NAME}|others|al\.))?(?:'s)? "
     r"\(?(?P<year>1[6-9]\d\d|20\d\d)\b"

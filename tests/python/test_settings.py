@@ -75,7 +75,7 @@ NUMERICAL = {
     "smoothing/transient.py": {"DEGREE"},
     "effects/coordinate.py": {"NEARLY"},
     "effects/maxwell_element.py": {"LONGEST"},
-    "effects/record_view.py": {"_MOVING"},
+    "effects/record_view.py": {"TAUT", "_MOVING"},
     "effects/relaxation_spectra.py": {"_ANGLES"},
     "inference/prediction.py": {"MOST_STEPS"},
     "inference/base_fit.py": {"MOST_TURNS", "MOST_REFIT_STEPS", "SETTLED"},
@@ -91,7 +91,7 @@ NUMERICAL = {
     "inference/moving_noise.py": {"KEPT"},
     "inference/remembering.py": {"KEPT"},
     "inference/own_force.py": {
-        *("MOST_NEWTON_STEPS", "MOST_DIRECTIONS", "PARTS", "SETTLED", "SLOPE", "ROUGHLY", "GOOD_ENOUGH"),
+        *("MOST_NEWTON_STEPS", "MOST_DIRECTIONS", "MOST_KEPT", "PARTS", "SETTLED", "SLOPE", "ROUGHLY", "GOOD_ENOUGH"),
         *("ROUGHEST", "FINEST", "PATIENCE", "HOPELESS", "PROBE"),
     },
     "inference/propagated.py": {"ROUNDING", "STRAIN_STEP"},

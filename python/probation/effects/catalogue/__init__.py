@@ -37,6 +37,9 @@ NAMES = (
     "slack_strip",
     "neck_triaxiality",
     "serrated_flow",
+    "orientation",
+    "guide_friction",
+    "ageing",
 )
 
 
