@@ -22,6 +22,16 @@ def test_a_deviation_that_grows_from_test_to_test_is_told_with_its_permutations(
     assert trend_of(-(np.arange(6.0)[:, None] ** 1.1), ["tau_max_s"], ORDER).correlation < -0.99
 
 
+def test_variables_that_order_the_specimens_alike_are_told_together():
+    rising = np.arange(6.0)
+    found = trend_of(
+        np.stack([rising + 0.3 * (-1.0) ** rising, 1e-3 * rising], axis=1), ["hardening_modulus_MPa", "area"],
+        {"order": rising, "strain_rate": rising**1.05, "temperature": np.array([1.0, 0.0, 1.0, 0.0, 1.0, 0.0])},
+    )  # fmt: skip
+    assert (found.deviation, {found.variable, *found.others}) == ("hardening_modulus_MPa", {"order", "strain_rate"})
+    assert found.text.endswith("these tests do not tell which")
+
+
 def test_chance_makes_a_trend_as_often_as_its_level_says():
     """Of 400 campaigns of six specimens, five deviations, three variables: 2 % of 400 are 8, at most 16 with 99.5 %."""
     random, hits = np.random.default_rng(7), 0

@@ -60,10 +60,13 @@ def test_what_a_specimen_is_off_by_is_predicted_and_what_no_specimen_is_off_by_i
     assert np.linalg.norm(far[0]) < 0.15 * np.linalg.norm(20.0 * true[0])
 
 
-def record(name, rate, end=1.0, specimen=None):
+def record(name, rate, end=1.0, specimen=None, temperature=None):
     strain = np.linspace(0.0, end, 50)
     zero = np.zeros(50)
-    return RecordResidual(name, strain / rate, strain, zero + rate, zero, np.zeros((50, 1)), specimen_id=specimen)
+    return RecordResidual(
+        name, strain / rate, strain, zero + rate, zero, np.zeros((50, 1)),
+        specimen_id=specimen, temperature=temperature,
+    )  # fmt: skip
 
 
 def test_replicates_have_one_strain_history_though_one_may_break_earlier():
@@ -75,6 +78,13 @@ def test_replicates_have_one_strain_history_though_one_may_break_earlier():
         record("e", 1e-3, 0.3),
     ]
     assert replicates(records) == [[0, 1, 2]]
+
+
+def test_tests_at_other_temperatures_are_no_replicates():
+    """A law that does not know the temperature would see specimens that differ by 20 %."""
+    at = [record("a", 1e-3, temperature=23.0), record("b", 1e-3, temperature=31.0), record("c", 1e-3, temperature=24.0)]
+    assert replicates(at) == [[0, 2]]
+    assert replicates([at[0], record("d", 1e-3)]) == [[0, 1]]
 
 
 def test_a_test_of_the_same_specimen_again_is_no_replicate():

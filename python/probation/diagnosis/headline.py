@@ -112,6 +112,8 @@ def headline(
     clause = _cause(verdict, explanations, parts, answer_set, shrink, count, cut, nothing, worse)
     if gap.in_fitted:
         missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
+        if identify.before_MPa <= identify.noise_MPa:
+            missed = f"What the law misses is within the noise of {identify.noise_MPa:.2g} MPa, but is no noise"
         if verdict == "explained":
             return f"{clause[:1].upper()}{clause[1:]}."
         return f"{missed}{' and' if clause.startswith('nothing') else ':'} {clause}."

@@ -16,6 +16,8 @@ import numpy as np
 from probation.inference.deviations import TITLES
 from probation.noise.own_deviations import deviations_of
 from probation.settings.detection import DETECTION
+from probation.settings.effects import EFFECTS
+from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -45,12 +47,15 @@ class DeviationTrend:
         Over the specimens.
     p_value : float
         That any deviation goes so well with any of these variables by chance: of permutations.
+    others : tuple of str
+        Variables that the deviation goes with about as well: these specimens do not tell them apart.
     """
 
     deviation: str
     variable: str
     correlation: float
     p_value: float
+    others: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:
@@ -58,7 +63,11 @@ class DeviationTrend:
         name, like = _WORDS[self.variable]
         what = TITLES.get(self.deviation, self.deviation)
         falls = "falls" if self.correlation < 0.0 else "grows"
-        return f"{what} {falls} with {name} (p = {self.p_value:.2g}), as with {like}"
+        text = f"{what} {falls} with {name} (p = {self.p_value:.2g}), as with {like}"
+        for other in self.others:
+            name, like = _WORDS[other]
+            text += f", and about as well with {name}, as with {like}"
+        return text + ("; these tests do not tell which" if self.others else "")
 
 
 def deviation_trend(base: BaseFit) -> DeviationTrend | None:
@@ -91,14 +100,20 @@ def trend_of(
     against = np.stack(list(ranged.values()), axis=1)
     count = len(deviations)
     orders = _orders(count)
-    every = np.abs(np.einsum("pik,iv->pkv", standard[orders], against)).max(axis=(1, 2)) / count
+    # By how far a deviation goes with a variable, in what specimens differ by: what they hardly differ in is no rival.
+    size = np.std(deviations[:, varied], axis=0)
+    every = np.abs(np.einsum("pik,iv->pkv", standard[orders], against) * size[:, None]).max(axis=(1, 2)) / count
     here = standard.T @ against / count
-    at, along = np.unravel_index(int(np.argmax(np.abs(here))), here.shape)
-    p_value = float(np.mean(every >= np.abs(here[at, along]) - 1e-12))
+    far = np.abs(here) * size[:, None]
+    at, along = np.unravel_index(int(np.argmax(far)), here.shape)
+    p_value = float(np.mean(every >= far[at, along] * (1.0 - 1e-12)))
     if p_value >= DETECTION.trend_level:
         return None
     name = list(np.array(names)[varied])[at]
-    return DeviationTrend(str(name), list(ranged)[along], float(here[at, along]), p_value)
+    left = np.maximum(1.0 - here[at] ** 2, 1e-12)
+    worse = 0.5 * count * np.log(left / left[along])  # logarithm of the likelihood ratio of two lines
+    others = [other for index, other in enumerate(ranged) if index != along and worse[index] < DETECTION.trend_alike]
+    return DeviationTrend(str(name), list(ranged)[along], float(here[at, along]), p_value, tuple(others))
 
 
 def _standard(values: FloatArray) -> FloatArray:
@@ -119,9 +134,13 @@ def _variables(views: Sequence[Sequence[RecordView]]) -> dict[str, FloatArray]:
     """Of specimens, each with its records."""
     found = {
         "order": np.array([np.mean([view.index for view in own]) for own in views], dtype=np.float64),
-        "strain_rate": np.array([np.mean([np.median(view.log_rate) for view in own]) for own in views]),
     }
+    rates = np.array([np.mean([np.median(view.log_rate) for view in own]) for own in views])
+    if np.ptp(rates) * np.log10(np.e) > NOISE.least_rate_range:  # else it is one rate and its noise
+        found["strain_rate"] = rates
     temperatures = [[view.temperature for view in own if view.temperature is not None] for own in views]
     if all(temperatures):
-        found["temperature"] = np.array([np.mean([np.mean(each) for each in own]) for own in temperatures])
+        warm = np.array([np.mean([np.mean(each) for each in own]) for own in temperatures])
+        if np.ptp(warm) > EFFECTS.different_temperature:
+            found["temperature"] = warm
     return found

@@ -1,9 +1,10 @@
 """How far specimens differ: what a campaign states, what replicates show, or what is assumed
 (docs/diagnosis-method.md, section 10).
 
-Replicates are records of different specimens under one strain history. What the law misses is the same in all of them
-and stands in the mean of the group; what differs within a group is noise and the specimens' deviations. Their
-variances are had from that alone, by restricted likelihood, so that no missing effect passes for scatter.
+Replicates are records of different specimens under one strain history, at one temperature. What the law misses is the
+same in all of them and stands in the mean of the group; what differs within a group is noise and the specimens'
+deviations. Their variances are had from that alone, by restricted likelihood, so that no missing effect passes for
+scatter.
 
 E_u, G and the section cannot be separated in one specimen; over several they can, as far as E_u and G vary together.
 """
@@ -156,7 +157,10 @@ def scatter_of(
 
 
 def replicates(records: Sequence[Record | RecordResidual]) -> list[list[int]]:
-    """Records of different specimens under one strain history each, by their indices."""
+    """Records of different specimens under one strain history and at one temperature each, by their indices.
+
+    At two temperatures a law that misses their difference would see it as scatter.
+    """
     groups: list[list[int]] = []
     for index, record in enumerate(records):
         for group in groups:
@@ -170,6 +174,9 @@ def replicates(records: Sequence[Record | RecordResidual]) -> list[list[int]]:
 
 
 def _alike(first: Record | RecordResidual, other: Record | RecordResidual) -> bool:
+    warm = [_start_temperature(record) for record in (first, other)]
+    if abs(warm[0] - warm[1]) > NOISE.same_temperature:  # of a temperature that is not known nothing is
+        return False
     spans = [record.time[-1] - record.time[0] for record in (first, other)]
     if min(spans) < NOISE.least_time_in_common * max(spans):
         return False
@@ -178,6 +185,10 @@ def _alike(first: Record | RecordResidual, other: Record | RecordResidual) -> bo
     own = first.true_strain[: len(time)]
     away = np.interp(time, other.time - other.time[0], other.true_strain) - own
     return bool(np.sqrt(np.mean(away**2)) <= NOISE.same_history * max(float(np.ptp(own)), 1e-300))
+
+
+def _start_temperature(record: Record | RecordResidual) -> float:
+    return float("nan") if record.temperature is None else float(np.ravel(record.temperature)[0])
 
 
 def _owners(records: Sequence[Record | RecordResidual]) -> list[int | str]:

@@ -48,4 +48,5 @@ def residual_of(
         propagated=propagated,
         wander=wander,
         specimen_id=view.specimen_id,
+        temperature=None if view.temperature is None else float(view.temperature[0]),
     )

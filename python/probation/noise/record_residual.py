@@ -45,6 +45,8 @@ class RecordResidual:
         (`inference.scatter`).
     specimen_id : str, optional
         Records of one specimen share these deviations.
+    temperature : float, optional
+        At which the test starts, as declared or recorded [°C].
     quiet : tuple of slice
         Dwells and pre-load segments: the noise is taken there if they are long enough.
     replicate : ndarray, shape (n,) [MPa], optional
@@ -70,6 +72,7 @@ class RecordResidual:
     wander: FloatArray | None = None
     specimen: FloatArray | None = None
     specimen_id: str | None = None
+    temperature: float | None = None
     quiet: tuple[slice, ...] = ()
     replicate: FloatArray | None = None
 

@@ -35,6 +35,13 @@ class DetectionSettings:
         "A trend of the specimens' deviations is told below this p-value: it changes no verdict, and looks for a "
         "missing cause where scatter hides it.",
     )
+    trend_alike: float = chosen(
+        3.0,
+        "log likelihood",
+        "A variable that the deviations follow less well by less than this is told as well: a ratio of 20, from which "
+        "on evidence is strong.",
+        source="Kass & Raftery 1995",
+    )
     least_specimens: int = chosen(5, "specimens", "Fewer have too few orders for such a p-value.")
     most_orders: int = chosen(5040, "orders", "Orders of specimens that are compared: all of seven.")
     tolerance: float = chosen(

@@ -175,6 +175,12 @@ class NoiseSettings:
     least_time_in_common: float = chosen(
         0.5, "-", "Part of the longer record's time that replicates have in common at least: chosen."
     )
+    same_temperature: float = chosen(
+        3.0,
+        "°C",
+        "Difference of the temperatures, where both are known, up to which tests are replicates: a room kept to 2 °C, "
+        "and less than what makes specimens of most polymers seem to differ by more than they do.",
+    )
     scatter_seen: float = chosen(
         0.2,
         "-",

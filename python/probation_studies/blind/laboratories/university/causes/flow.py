@@ -271,4 +271,29 @@ SLOW = Cause(
     largest=2.0,
 )
 
+
+def _older(run: Run, amplitude: float, shape: Shape) -> Act:
+    middle = 0.5 * (run.time[1:] + run.time[:-1])
+    shift = amplitude * np.log1p(middle / shape["time_s"])
+    return Act(course=lambda course: replace(course, log_time=course.log_time + shift))
+
+
+def _older_saturating(run: Run, amplitude: float, shape: Shape) -> Act:
+    middle = 0.5 * (run.time[1:] + run.time[:-1])
+    shift = amplitude * np.log1p(middle / shape["time_s"] / (1.0 + middle / run.time[-1]))
+    return Act(course=lambda course: replace(course, log_time=course.log_time + shift))
+
+
+def _age(random: Generator, setting: Setting) -> dict[str, float]:
+    return {"time_s": setting.duration * random.uniform(0.05, 0.3)}
+
+
+AGEING = Cause(
+    "ageing during the test",
+    (Form("Struik 1978", _age, _older), Form("Struik 1978, saturating", _age, _older_saturating)),
+    scale=0.1,
+    largest=1.0,
+)
+
+
 CAUSES = (FLOW_RATE, FLOW_STRESS, HEATING, AGED_START, SPECTRUM, SLOW)

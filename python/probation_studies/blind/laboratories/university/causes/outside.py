@@ -1,7 +1,5 @@
 """Causes that a catalogue does not usually hold.
 
-- Physical ageing during the test. Struik 1978, Physical Aging in Amorphous Polymers and Other Materials: ln(tau) grows
-  by mu ln(1 + t/t_e).
 - A modulus that falls with the strain reached. Yoshida, Uemori and Fujiwara 2002, Int. J. Plast. 18, 633:
   E (1 - a (1 - exp(-xi eps))), or linear up to saturation; only the unrelaxed part of the stress sees it.
 - A second yield. Brooks, Duckett and Ward 1992, Polymer 33, 1872 (polyethylene): a hump in the stress at a strain of
@@ -27,30 +25,6 @@ if TYPE_CHECKING:
     from numpy.random import Generator
 
     from probation_studies.blind.laboratories.university.modal_law import FloatArray
-
-
-def _older(run: Run, amplitude: float, shape: Shape) -> Act:
-    middle = 0.5 * (run.time[1:] + run.time[:-1])
-    shift = amplitude * np.log1p(middle / shape["time_s"])
-    return Act(course=lambda course: replace(course, log_time=course.log_time + shift))
-
-
-def _older_saturating(run: Run, amplitude: float, shape: Shape) -> Act:
-    middle = 0.5 * (run.time[1:] + run.time[:-1])
-    shift = amplitude * np.log1p(middle / shape["time_s"] / (1.0 + middle / run.time[-1]))
-    return Act(course=lambda course: replace(course, log_time=course.log_time + shift))
-
-
-def _age(random: Generator, setting: Setting) -> dict[str, float]:
-    return {"time_s": setting.duration * random.uniform(0.05, 0.3)}
-
-
-AGEING = Cause(
-    "ageing during the test",
-    (Form("Struik 1978", _age, _older), Form("Struik 1978, saturating", _age, _older_saturating)),
-    scale=0.1,
-    largest=1.0,
-)
 
 
 def _softer(run: Run, amplitude: float, shape: Shape, linear: bool) -> Act:
@@ -159,4 +133,4 @@ PIXELS = Cause(
     rig=True,
 )
 
-OUTSIDE = (AGEING, MODULUS, SECOND_YIELD, CAVITATION, CLOCKS, PIXELS)
+OUTSIDE = (MODULUS, SECOND_YIELD, CAVITATION, CLOCKS, PIXELS)
