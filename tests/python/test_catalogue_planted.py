@@ -249,6 +249,22 @@ def test_a_guide_that_rubs_between_specimen_and_cell():
     assert 0.3 < value(found, "friction_MPa") < 0.4
 
 
+def test_a_pull_rod_that_rubs_behind_its_seal():
+    """Bouc and Wen: dz = (1 - |z| (0.7 sgn(z dF) + 0.3)) dF / r; 0.6 MPa either way."""
+
+    def read(law, time, strain):
+        force = law.stress(time, strain) * np.exp(-strain)
+        slid = [0.0]
+        for step in np.diff(force) / 0.15:
+            part = 1.0 - abs(slid[-1]) * (0.7 * np.sign(slid[-1] * step) + 0.3)
+            slid.append(float(np.clip(slid[-1] + part * step, -1.0, 1.0)))
+        return (force + 0.6 * np.array(slid)) * np.exp(strain)
+
+    found = named(loops(read), "guide_friction")
+    assert found.best.forms == ("with_the_force",)
+    assert value(found, "friction_MPa") == pytest.approx(0.6, rel=0.2)
+
+
 def test_times_that_grow_as_the_chains_turn():
     """By 30 % of themselves per unit of stretch."""
 

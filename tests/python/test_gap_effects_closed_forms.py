@@ -1050,6 +1050,15 @@ def test_a_guide_rubs_against_the_motion():
     np.testing.assert_allclose(found * np.exp(-record.true_strain), force + 0.4 * way, atol=1e-9)
 
 
+def test_a_rod_that_the_force_moves_turns_with_it():
+    """0.4 MPa once the force has changed by 2 MPa, as much against it 4 MPa after it has turned."""
+    record, force = cycles()
+    found, _ = predicted(bar(), record, "guide_friction", "with_the_force", (0.4, 2.0))
+    rubs, top = found * np.exp(-record.true_strain) - force, float(np.max(force))
+    np.testing.assert_allclose(rubs[:751], 0.2 * np.minimum(force[:751], 2.0), atol=1e-9)
+    np.testing.assert_allclose(rubs[751:1201], 0.2 * np.maximum(2.0 - (top - force[751:1201]), -2.0), atol=1e-9)
+
+
 def test_friction_of_a_guide_builds_up_along_the_way_as_its_differential_equation_says():
     """dz/dl = 1/w - z |dl|/(w dl), by the trapezoidal rule."""
     record, force = cycles(6001)

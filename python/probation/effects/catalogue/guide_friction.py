@@ -32,6 +32,18 @@ _WAY = EffectParameter(
     reason="of the gauge length: what rubs is held by springs of its own, rods and seals",
 )
 
+_CHANGE = EffectParameter(
+    name="change_to_sliding_MPa",
+    unit="MPa",
+    lower=1e-3,
+    upper=20.0,
+    centre=0.1,
+    scale=1.5,
+    log=True,
+    starts=(0.03, 0.3),
+    reason="a rod slides as soon as the force has changed by about its friction",
+)
+
 
 def _turns(view: RecordView) -> list[tuple[int, float]]:
     """Instants from which on the elongation goes one way by more than its noise, and +1 or -1, way out or back."""
@@ -72,21 +84,32 @@ def _building_up(view: RecordView, values: Values, stress: FloatArray) -> FloatA
     return np.asarray(stress + values[0] * slid * stretch)
 
 
+def _with_the_force(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
+    """The same where the force moves what rubs, a rod behind a seal: it turns where the force does, in a dwell, too.
+
+    It builds up to a over a change of the nominal stress by n, twice that from way to way; then the rod slides.
+    """
+    force = stress / view.stretch
+    built_up = (force - behind(force, values[1], force[0])) / values[1]
+    return np.asarray((force + values[0] * built_up) * view.stretch)
+
+
 EFFECT = Effect(
     name="guide_friction",
     title="friction of a guide",
     physics=(
         "What guides the grip or the crosshead rubs between specimen and load cell: the cell reads more while the "
-        "specimen is pulled, less on the way back, and a step at every turn.\n"
+        "specimen is pulled, less on the way back, and a step at every turn. What the force moves turns with it.\n"
         "Amplitude: that force over the initial section."
     ),
-    source="Coulomb; Dahl 1968 (friction that builds up)",
-    shows_in="unloading: a step of the force where the motion turns",
+    source="Dahl 1968 (friction that builds up); Krasnosel'skii & Pokrovskii 1989 (with the force: a stop)",
+    shows_in="unloading: a step of the force where the motion turns, or the force",
     kind="rig",
     coordinate="time",
     forms=(
         Form("sliding", (_FRICTION,), recorded_stress=_sliding, needs=unloads),
         Form("building_up", (_FRICTION, _WAY), recorded_stress=_building_up, needs=unloads, variant=True),
+        Form("with_the_force", (_FRICTION, _CHANGE), recorded_stress=_with_the_force, needs=unloads, variant=True),
     ),
     odds=0.3,
 )

@@ -10,6 +10,7 @@ NAMES = {
     "other weights of the spectrum": "spectrum_shape",
     "process beyond the spectrum": "slow_process",
     "kinematic hardening": "back_stress",
+    "modulus that grows with orientation": "orientation",
     "stress of clamping": "prestress",
     "storage between tests": "change_between_tests",
     "hardening of other rates": "rate_dependent_hardening",

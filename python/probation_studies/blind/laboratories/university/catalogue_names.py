@@ -7,6 +7,7 @@ CATALOGUE_NAMES = {
     "yield softening": "structural_softening",
     "another spectrum": "spectrum_shape",
     "slow process": "slow_process",
+    "ageing during the test": "ageing",
     "limited chains": "finite_extensibility",
     "rate-dependent hardening": "rate_dependent_hardening",
     "delayed hardening": "delayed_hardening",

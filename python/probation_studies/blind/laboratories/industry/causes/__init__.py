@@ -28,6 +28,7 @@ CATALOGUE = {
     "mullins": "mullins_softening",
     "kinematic_hardening": "back_stress",
     "cell_hysteresis": "cell_hysteresis",
+    "guide_friction": "guide_friction",
     "ageing_between_tests": "change_between_tests",
     "crystallisation": "strain_induced_crystallisation",
 }

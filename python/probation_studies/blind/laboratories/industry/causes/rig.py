@@ -273,6 +273,28 @@ def _delay_unit(scales: Scales) -> float:
     return 1e-3 * scales.duration
 
 
+def _guide_friction(test: BenchTest, a: float, shape: Shape) -> None:
+    """Coulomb 1785: a guide or the seal of a chamber resists the crosshead, a F_m sgn(v), within the force loop."""
+    test.force.append(lambda force: force + a * test.scales.force * _direction(test))
+
+
+def _stribeck(test: BenchTest, a: float, shape: Shape) -> None:
+    """Stribeck 1902, Armstrong-Helouvry 1994: the friction falls with the speed, exp(-|v|/v_s), above a floor."""
+    speed = np.abs(np.gradient(test.programme.travel, test.time)) / test.scales.rate
+    fall = 0.4 + 0.6 * np.exp(-speed / shape["speed"])
+    test.force.append(lambda force: force + a * test.scales.force * fall * _direction(test))
+
+
+def _direction(test: BenchTest) -> FloatArray:
+    """Of the crosshead, let go in holds within a hundredth of the duration."""
+    wanted = np.sign(np.where(np.abs(np.diff(test.programme.travel)) > 1e-9, np.diff(test.programme.travel), 0.0))
+    found, now = np.zeros(len(test.time)), 0.0
+    for k, dt in enumerate(np.diff(test.time)):
+        now += (wanted[k] - now) * -np.expm1(-dt / (0.01 * test.scales.duration))
+        found[k + 1] = now
+    return found
+
+
 RIG = (
     Cause(
         "frame_compliance",
@@ -393,5 +415,14 @@ RIG = (
             Form("ISO 230-2, lead screw", _screw_pitch, 0.01, {"pitch": (0.02, 0.2)}, crosshead=True),
         ),
         rig=True,
+    ),
+    Cause(
+        "guide_friction",
+        (
+            Form("Coulomb 1785", _guide_friction, 0.1, {}),
+            Form("Stribeck 1902", _stribeck, 0.1, {"speed": (0.1, 2.0)}),
+        ),
+        rig=True,
+        needs="turns",
     ),
 )

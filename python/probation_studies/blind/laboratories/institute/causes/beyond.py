@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from probation_studies.blind.laboratories.institute.causes.cause import Cause, Change, Form, Shape, shifted
-from probation_studies.blind.laboratories.institute.modal import haward_thackray
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,21 +38,6 @@ def _deep_return(test: Test, a: float, shape: Shape) -> Change:
     """The further below its largest strain, the slower."""
     missing = test.largest - test.strain
     return shifted(-a * np.expm1(-missing * test.setting.modulus / (shape["width"] * test.setting.flow_stress)))
-
-
-def _stiffened(factor: FloatArray) -> Change:
-    return Change(course=lambda course: replace(course, modulus=course.modulus * factor))
-
-
-def _ward(test: Test, a: float, shape: Shape) -> Change:
-    """An aggregate of units that turn into the axis: (1 + a cos^4) with a pseudo-affine rotation's mean."""
-    turned = 1.0 - np.exp(-1.5 * np.maximum(test.strain, 0.0) / shape["strain"])
-    return _stiffened(1.0 + a * turned**2)
-
-
-def _taut(test: Test, a: float, shape: Shape) -> Change:
-    """Tie molecules in parallel grow taut with the network's strain."""
-    return _stiffened(1.0 + a * haward_thackray(test.strain) / haward_thackray(np.array(test.setting.reach)))
 
 
 def _structure(test: Test, step: Callable[[float, float, float], float]) -> FloatArray:
@@ -94,10 +77,6 @@ BEYOND = (
         "another time on the way back", 0.3, 3.0,
         (Form("Lai and Bakker 1995", _lai_bakker), Form("by the distance", _deep_return, {"width": (0.3, 2.0)})),
         signed=True, needs="cycles",
-    ),
-    Cause(
-        "modulus that grows with orientation", 0.2, 4.0,
-        (Form("Ward 1962", _ward, {"strain": (0.2, 1.0)}), Form("Takayanagi 1964", _taut)),
     ),
     Cause(
         "structure that rests and breaks", 0.3, 3.0,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation_studies.blind.laboratories.institute.causes.cause import Cause, Change, Form, Shape, maxwell, shifted
-from probation_studies.blind.laboratories.institute.modal import RATIO, WEIGHT
+from probation_studies.blind.laboratories.institute.modal import RATIO, WEIGHT, haward_thackray
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -245,6 +245,21 @@ def _struik_storage(test: Test, a: float, shape: Shape) -> Change:
     return shifted(np.full(len(test.time), a * np.log1p(shape["ages"] * test.place) / np.log1p(shape["ages"])))
 
 
+def _stiffened(factor: FloatArray) -> Change:
+    return Change(course=lambda course: replace(course, modulus=course.modulus * factor))
+
+
+def _ward(test: Test, a: float, shape: Shape) -> Change:
+    """An aggregate of units that turn into the axis: (1 + a cos^4) with a pseudo-affine rotation's mean."""
+    turned = 1.0 - np.exp(-1.5 * np.maximum(test.strain, 0.0) / shape["strain"])
+    return _stiffened(1.0 + a * turned**2)
+
+
+def _taut(test: Test, a: float, shape: Shape) -> Change:
+    """Tie molecules in parallel grow taut with the network's strain."""
+    return _stiffened(1.0 + a * haward_thackray(test.strain) / haward_thackray(np.array(test.setting.reach)))
+
+
 FLOW = (
     Cause(
         "flow of other rates", 0.15, 1.5,
@@ -325,5 +340,9 @@ FLOW = (
             Form("Struik 1978", _struik_storage, {"ages": (2.0, 100.0)}),
         ),
         signed=True, needs="order",
+    ),
+    Cause(
+        "modulus that grows with orientation", 0.2, 4.0,
+        (Form("Ward 1962", _ward, {"strain": (0.2, 1.0)}), Form("Takayanagi 1964", _taut)),
     ),
 )  # fmt: skip

@@ -17,6 +17,8 @@ Every form is written as a shift of ln(tau_max), all modes alike, unless it says
   sin(b pi)/(cosh((1 - b) ln(tau/tau0)) - cos(b pi)). Kohlrausch, Williams and Watts 1970, Trans. Faraday Soc. 66, 80,
   with the power 1/2: sqrt(tau/tau0) exp(-tau/(4 tau0)).
 - A slow process. Maxwell 1867: one branch of a longer time. Scott Blair 1947: a power of time, (1 + t/t0)^-n.
+- Physical ageing during the test. Struik 1978, Physical Aging in Amorphous Polymers and Other Materials: ln(tau) grows
+  by mu ln(1 + t/t_e).
 """
 
 from __future__ import annotations
@@ -296,4 +298,4 @@ AGEING = Cause(
 )
 
 
-CAUSES = (FLOW_RATE, FLOW_STRESS, HEATING, AGED_START, SPECTRUM, SLOW)
+CAUSES = (FLOW_RATE, FLOW_STRESS, HEATING, AGED_START, SPECTRUM, SLOW, AGEING)
