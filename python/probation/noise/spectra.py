@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -47,13 +48,19 @@ def _groups(parts: list[Periodogram], bottom: float, pool: bool) -> list[tuple[l
         shared = fit_arma(parts, bottom)
         if len(parts) == 1:
             return [(everyone, shared)]
-    alone = [fit_arma([part], bottom) for part in parts]
+    alone = [_alone(part, bottom) for part in parts]
     extra = 2.0 * (len(parts) - 1)  # mean of a chi-square
     if pool and shared.deviance - sum(fit.deviance for fit in alone) <= extra + NOISE.own_shape_errors * np.sqrt(
         2.0 * extra
     ):
         return [(everyone, shared)]
     return [([index], fit) for index, fit in enumerate(alone)]
+
+
+@lru_cache
+def _alone(part: Periodogram, bottom: float) -> ArmaFit:
+    """Of one record; kept, since of all records one or two change from a round to the next."""
+    return fit_arma([part], bottom)
 
 
 def _agrees(whole: Periodogram, own: Periodogram, fit: ArmaFit, at: int) -> bool:
