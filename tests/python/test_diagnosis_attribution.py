@@ -358,6 +358,22 @@ def test_a_headline_without_the_small_effects_does_not_call_what_it_names_its_ow
     assert text.endswith("(probability 99 %).")
 
 
+def test_a_misfit_within_the_noise_is_not_said_to_be_missed_by_so_much():
+    outside = EffectShare("unknown", 0.99, 1.0, None, None, ("a",), named=False)
+    text = headline(
+        "unexplained",
+        [SimpleNamespace(effects=("unknown",), records=("a",))],
+        Attribution((outside,), (), 0.05, 0.9),
+        [("unknown",)],
+        SimpleNamespace(identify=Closure(0.05, 0.05, 0.055, 0.0, None, ""), records={"a": None}, held_out=None),
+        SimpleNamespace(held_out={}, in_fitted=True, matters=lambda tolerance: True),
+    )
+    assert text == (
+        "The law misses the records by no more than their noise (0.055 MPa), but not by chance and nothing in the catalogue "
+        "explains it."
+    )
+
+
 @pytest.mark.parametrize(("share", "after"), [(0.004, 0.1645), (0.2, 0.17)])
 def test_beside_an_unknown_no_effect_is_named_that_closes_nothing(share, after):
     """0.4 % of the gap; or 20 % in units of the noise, while the misfit in MPa rises from 0.165 to 0.17."""

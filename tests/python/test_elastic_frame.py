@@ -79,6 +79,17 @@ def test_the_answer_to_a_change_is_its_derivative():
     assert slope == pytest.approx((above.stress - below.stress) / 30.0, rel=2e-3, abs=1e-6)
 
 
+def test_an_answer_is_the_same_whatever_was_asked_for_before():
+    """What one answer has found is kept for the next; the last one begins anew, with as much as is kept."""
+    own = OwnForce(stress_left, LAW.stress(TIME, 0.5 * TRAVEL, "sa2"), frame_at(np.zeros(len(TIME))).answer)
+    asked = [np.sin((1.0 + k) * TIME / TIME[-1]) for k in range(12)]
+    fresh = [
+        OwnForce(stress_left, own.stress, frame_at(np.zeros(len(TIME))).answer).answer(each, 1e-6) for each in asked
+    ]
+    for each, alone in zip(asked, fresh, strict=True):
+        assert own.answer(each, 1e-6) == pytest.approx(alone, abs=1e-4 * float(np.max(np.abs(alone))))
+
+
 def test_behind_a_soft_frame_a_screen_sees_other_effects_as_the_model_does():
     """Derivatives along amplitudes that change the force by less than it is sought to."""
     own = LAW.stress(TIME, 0.5 * TRAVEL, "sa2")

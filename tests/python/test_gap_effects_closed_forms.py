@@ -172,7 +172,7 @@ def test_a_modulus_that_grows_with_the_orientation_is_felt_step_by_step():
     np.testing.assert_allclose(found, 1000.0 * np.expm1(0.3 * ramp().true_strain) / 0.3, rtol=1e-5, atol=0.01)
     found, _ = predicted(FROZEN, ramp(), "orientation", "modulus_of_units", (0.3,), substeps=4)
     order = np.array([of_turned_lines(strain) for strain in ramp().true_strain]) / 0.6
-    felt = cumulative_trapezoid(1.0 + 0.3 * order, ramp().true_strain, initial=0.0)
+    felt = cumulative_trapezoid(np.exp(0.3 * order), ramp().true_strain, initial=0.0)
     np.testing.assert_allclose(found, 1000.0 * felt, rtol=1e-5, atol=0.01)
 
 
@@ -757,6 +757,16 @@ def test_jaws_give_way_beyond_what_friction_holds():
     np.testing.assert_allclose(found, record.true_stress, rtol=2e-3, atol=0.01)
 
 
+@pytest.mark.parametrize("dip", [0.0, -1e-6])
+def test_the_rate_jumps_where_slack_ends_whatever_the_first_readings_are(dip):
+    """Before the pull the strain was once read below the first reading."""
+    strain = np.append([0.0, dip, 0.0], np.linspace(0.0, 0.4, 81)[1:])
+    record = replace(ramp(samples=83), time=np.arange(83.0), true_strain=np.log1p(strain), sha256="")
+    [view] = views_of(probation.Campaign(name="slack", records=(record,)))
+    driven = view.driven(cause("strain_offset", form="slack").form.driving_strain(view, (0.0325,)))
+    assert {8, 9} <= set(driven.jumps)
+
+
 @pytest.mark.parametrize("slack", [0.002, 0.031])
 def test_behind_slack_a_specimen_starts_as_it_would_without(slack):
     """The law has a companion relation, and slack ends within a step: its rate jumps there."""
@@ -1048,6 +1058,25 @@ def test_a_guide_rubs_against_the_motion():
     way = np.sign(np.diff(record.true_strain, prepend=0.0))
     way[[0, 750, 1200]] = 0.0
     np.testing.assert_allclose(found * np.exp(-record.true_strain), force + 0.4 * way, atol=1e-9)
+
+
+def test_friction_of_a_guide_stays_in_a_dwell_and_is_none_before_the_first_motion():
+    """At rest, out, a dwell, back: the strain of the dwells trembles by less than its noise."""
+    time = np.arange(401.0)
+    strain = np.interp(time, [0.0, 60.0, 160.0, 300.0, 400.0], [0.0, 0.0, 0.1, 0.1, 0.02])
+    strain += 1e-6 * np.random.default_rng(1).standard_normal(401)
+    record = Record(id="dwells", time=time, true_strain=strain, true_stress=1e3 * strain, noise=Noise(0.04, 1e-6))
+    [view] = views_of(probation.Campaign(name="dwells", records=(record,)))
+    way = cause("guide_friction", form="sliding").form.recorded_stress(view, (1.0,), np.zeros(401)) / np.exp(strain)
+    assert np.all(way[:55] == 0.0)
+    np.testing.assert_allclose(way[65:296], 1.0, rtol=1e-4)
+    np.testing.assert_allclose(way[305:], -1.0, rtol=1e-4)
+
+
+def test_in_a_record_that_nothing_moves_a_guide_does_not_rub():
+    held, loops = replace(ramp(), true_strain=np.full(400, 0.02), sha256=""), cycles()[0]
+    found, _ = predicted(bar(), held, "guide_friction", "sliding", (0.4,), others=(loops,))
+    np.testing.assert_allclose(found, 20.0, rtol=1e-12)
 
 
 def test_a_rod_that_the_force_moves_turns_with_it():

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 _MOVING = 10.0 * RATE_FLOOR
 
 TAUT = 0.05
-"""A specimen is taut if the step after it first moves misses less than this part of what was missed until then; that is
-slack where it is no less than this part of what was recorded.
+"""Part of a step. What a specimen misses until it first moves is slack if it is more of what was recorded until then,
+and if the step after misses less of that.
 """
 
 
@@ -362,6 +362,7 @@ class RecordView:
             direction=fine.direction,
             stride=substeps,
             quiet_stress=None,
+            same_data=None,
             measured=Measured(self.record, excitation),
         )
 
@@ -400,7 +401,7 @@ class RecordView:
 
     def _taut_from(self, true_strain: FloatArray) -> int:
         """The first instant with another strain than the first, if less was seen until then, and no less after it."""
-        first = int(np.argmax(true_strain != true_strain[0]))
+        first = int(np.argmax(true_strain > true_strain[0]))
         if first == 0 or first + 1 >= len(true_strain):
             return 0
         recorded = self.true_strain

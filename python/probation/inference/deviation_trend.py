@@ -46,7 +46,7 @@ class DeviationTrend:
     correlation : float
         Over the specimens.
     p_value : float
-        That any deviation goes so well with any of these variables by chance: of permutations.
+        That any deviation goes so far with any of these variables by chance: of permutations.
     others : tuple of str
         Variables that the deviation goes with about as well: these specimens do not tell them apart.
     """

@@ -291,9 +291,9 @@ def _survivor(
 ) -> GapTest:
     """The test of some records; of a gap that is a fraction of the noise, the most doubtful of its answers.
 
-    Such a gap, or one that in no record is larger than the noise's level is uncertain by, rests on the model of the
-    noise, and is declared only where it survives those that the records allow: a level 1.25 times as high, and a drift
-    that goes along with an effect as with anything else.
+    A gap is no such one if in one record it is above a fraction of the noise, its interval above 0. Others rest on the
+    model of the noise, and are declared only where they survive those that the records allow: a level 1.25 times as
+    high, and a drift that goes along with an effect as with anything else.
     """
     level, noises = calibration.gap_level(misfit_over_noise(whitened)), whitened.noises
     test = _tested(whitened, columns, seed, level, scatter)

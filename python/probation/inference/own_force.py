@@ -142,7 +142,9 @@ class OwnForce:
                 along = products[:k] @ product
                 product = product - along @ products[:k]
                 direction = direction - along @ directions[:k]
-            length = max(float(np.linalg.norm(product)), 1e-300)
+            length = float(np.linalg.norm(product))
+            if not 0.0 < length < np.inf:  # nothing new, or beyond any force that there is
+                break
             directions[k], products[k] = direction / length, product / length
             self._known = k + 1
             part = float(products[k] @ rest)

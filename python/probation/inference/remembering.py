@@ -21,6 +21,7 @@ class RememberingModel(CampaignModel):
 
     A refit of specimens that differ begins where one of specimens that are alike ended: only the noise is another. And
     a search asks for its derivatives where it has just been: the force that balances frame and specimen is known.
+    Unlike its base it keeps something between calls: one search has it for itself.
     """
 
     def __init__(self, model: CampaignModel) -> None:
@@ -48,7 +49,7 @@ class RememberingModel(CampaignModel):
         self, view: RecordView, base: FloatArray, causes: CauseValues, settled: float, near: OwnForce | None = None
     ) -> OwnForce:
         """As in `CampaignModel`."""
-        asked = (base.tobytes(), [values for _, values in causes], settled)
+        asked = (view, base.tobytes(), causes, settled)
         known, force = self._last.get(view.id, (None, None))
         if force is None or known != asked:
             force = super().balance(view, base, causes, settled, near)

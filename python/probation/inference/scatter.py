@@ -175,7 +175,7 @@ def replicates(records: Sequence[Record | RecordResidual]) -> list[list[int]]:
 
 def _alike(first: Record | RecordResidual, other: Record | RecordResidual) -> bool:
     warm = [_start_temperature(record) for record in (first, other)]
-    if abs(warm[0] - warm[1]) > NOISE.same_temperature:  # of a temperature that is not known nothing is
+    if abs(warm[0] - warm[1]) > NOISE.same_temperature:  # never, where one is not known (NaN)
         return False
     spans = [record.time[-1] - record.time[0] for record in (first, other)]
     if min(spans) < NOISE.least_time_in_common * max(spans):

@@ -45,26 +45,24 @@ _CHANGE = EffectParameter(
 )
 
 
-def _turns(view: RecordView) -> list[tuple[int, float]]:
-    """Instants from which on the elongation goes one way by more than its noise, and +1 or -1, way out or back."""
-    strain = view.recorded_strain
-    steps = np.diff(behind(strain, EFFECTS.return_over_noise * view.strain_noise), prepend=strain[0])
-    turns: list[tuple[int, float]] = []
-    last = 0
-    for moving in np.flatnonzero(steps).tolist():
-        way = float(np.sign(steps[moving]))
-        if not turns or turns[-1][1] != way:
-            turns.append((last + int(np.argmin(way * strain[last : moving + 1])), way))
-        last = moving
-    return turns
-
-
 def _pieces(view: RecordView) -> Iterator[tuple[slice, int, float]]:
-    """Instants of one way each, where they begin, and the way."""
-    turns = _turns(view)
-    ends = [begin for begin, _ in turns[1:]] + [len(view.time) - 1]
-    for (begin, way), end in zip(turns, ends, strict=True):
-        yield slice(begin + 1, end + 1), begin, way
+    """Instants from which the elongation goes one way by more than its noise, where they begin, and +1 (out) or -1.
+
+    A dwell belongs to what comes before it: they begin at the last of the furthest strains.
+    """
+    strain = view.recorded_strain
+    steps = np.sign(np.diff(behind(strain, EFFECTS.return_over_noise * view.strain_noise), prepend=strain[0]))
+    moving = np.flatnonzero(steps)
+    if moving.size == 0:
+        return
+    turning = np.flatnonzero(np.diff(steps[moving], prepend=0.0))
+    begins = []
+    for k in turning.tolist():
+        last, way = int(moving[k - 1]) if k else 0, steps[moving[k]]
+        furthest = way * strain[last : moving[k] + 1]
+        begins.append(last + int(np.flatnonzero(furthest <= furthest.min() + 2.0 * view.strain_noise)[-1]))
+    for k, begin, end in zip(turning.tolist(), begins, [*begins[1:], len(strain) - 1], strict=True):
+        yield slice(begin + 1, end + 1), begin, float(steps[moving[k]])
 
 
 def _sliding(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:

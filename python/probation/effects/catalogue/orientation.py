@@ -53,8 +53,8 @@ def _times_of_units(view: RecordView, values: Values) -> Modification:
 
 
 def _modulus_of_units(view: RecordView, values: Values) -> Modification:
-    """E_u (1 + a p), p the order of units that turn like lines: it levels off at 5/3."""
-    return Modification(unrelaxed_modulus_factor=1.0 + values[0] * _order(view))
+    """E_u exp(a p), p the order of units that turn like lines: it levels off at 5/3."""
+    return Modification(unrelaxed_modulus_factor=np.exp(values[0] * _order(view)))
 
 
 EFFECT = Effect(

@@ -1,4 +1,4 @@
-"""Recorded strain and the specimen's strain differ by a constant: toe, slack."""
+"""Something is recorded as strain that the specimen does not see: slack, a toe, a wrong zero."""
 
 from __future__ import annotations
 
@@ -101,13 +101,13 @@ def _durations(views: Sequence[RecordView], residuals: Sequence[FloatArray] | No
 _TAKEN_UP_OR_ZEROED = (
     Form(
         "slack",
-        (EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),),
+        (EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "some tenths of a per cent of the gauge length"),),
         driving_strain=_slack,
     ),
     Form(
         "toe",
         (
-            EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "a toe of some tenths of a per cent"),
+            EffectParameter("slack_strain", "", 0.0, 0.2, 0.005, "some tenths of a per cent of the gauge length"),
             EffectParameter(
                 name="take_up_strain",
                 unit="",
