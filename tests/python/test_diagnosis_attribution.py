@@ -369,8 +369,8 @@ def test_a_misfit_within_the_noise_is_not_said_to_be_missed_by_so_much():
         SimpleNamespace(held_out={}, in_fitted=True, matters=lambda tolerance: True),
     )
     assert text == (
-        "The law misses the records by no more than their noise (0.055 MPa), but not by chance and nothing in the catalogue "
-        "explains it."
+        "The law misses the records by no more than their noise (0.055 MPa), but not by chance and nothing in the "
+        "catalogue explains it."
     )
 
 

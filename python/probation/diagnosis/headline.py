@@ -113,7 +113,8 @@ def headline(
     if gap.in_fitted:
         missed = f"The law misses the records by {identify.before_MPa:.3g} MPa (noise {identify.noise_MPa:.2g} MPa)"
         if identify.before_MPa <= identify.noise_MPa:
-            missed = f"The law misses the records by no more than their noise ({identify.noise_MPa:.2g} MPa), but not by chance"
+            noise = f"{identify.noise_MPa:.2g} MPa"
+            missed = f"The law misses the records by no more than their noise ({noise}), but not by chance"
         if verdict == "explained":
             return f"{clause[:1].upper()}{clause[1:]}."
         return f"{missed}{' and' if clause.startswith('nothing') else ':'} {clause}."
