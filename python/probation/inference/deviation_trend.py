@@ -136,7 +136,7 @@ def _variables(views: Sequence[Sequence[RecordView]]) -> dict[str, FloatArray]:
         "order": np.array([np.mean([view.index for view in own]) for own in views], dtype=np.float64),
     }
     rates = np.array([np.mean([np.median(view.log_rate) for view in own]) for own in views])
-    if np.ptp(rates) > NOISE.least_rate_range * np.log(10.0):  # else it is one rate and its noise
+    if np.ptp(np.log10(np.exp(rates))) > NOISE.least_rate_range:  # else it is one rate and its noise
         found["strain_rate"] = rates
     temperatures = [[view.temperature for view in own if view.temperature is not None] for own in views]
     if all(temperatures):
