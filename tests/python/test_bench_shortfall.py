@@ -42,10 +42,10 @@ def test_what_leads_once_it_is_told_was_not_found_by_the_search(locking, tmp_pat
 
 
 def test_an_unknown_in_place_of_what_leads_once_it_is_told_is_the_search(tmp_path):
-    """A structural softening, sqrt(lambda) of 188."""
+    """A machine's compliance, sqrt(lambda) of 42."""
     found = _class(_sealed(industry.make(11, 12, "develop", "single"), tmp_path, ["unknown"]))
     assert found.what == "search", found.line
-    assert found.both.startswith("structural_softening")
+    assert found.both.startswith("machine_compliance")
 
 
 def test_an_unknown_that_stays_ahead_of_what_is_told_is_evidence(locking, tmp_path):
