@@ -291,16 +291,13 @@ def _survivor(
 ) -> GapTest:
     """The test of some records; of a gap that is a fraction of the noise, the most doubtful of its answers.
 
-    A gap is no such one if in one record it is above a fraction of the noise, its interval above 0. Others rest on the
-    model of the noise, and are declared only where they survive those that the records allow: a level 1.25 times as
-    high, and a drift that goes along with an effect as with anything else.
+    Such a gap rests on the model of the noise, and is declared only where it survives those that the records allow: a
+    level 1.25 times as high, and a drift that goes along with an effect as with anything else.
     """
     level, noises = calibration.gap_level(misfit_over_noise(whitened)), whitened.noises
     test = _tested(whitened, columns, seed, level, scatter)
     if not test.rejected or any(
-        sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation)
-        and sizes[noise.name].interval_MPa[0] > 0.0
-        for noise in noises
+        sizes[noise.name].rms_MPa > DETECTION.fraction_of_noise * _rms(noise.deviation) for noise in noises
     ):
         return test
     drifting = Whitened.of(whitened.records, tuple(noise.drifting for noise in noises))

@@ -27,7 +27,7 @@ class DetectionSettings:
         0.5,
         "noise",
         "Gap, over the noise, below which it is declared only if it is significant with other models of the noise, "
-        "too; so it is where its interval reaches 0.",
+        "too.",
     )
     trend_level: float = chosen(
         0.02,
