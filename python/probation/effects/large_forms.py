@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from probation._arrays import FloatArray
-    from probation.effects.effect import Effect, Form
+    from probation.effects.effect import Effect, Form, Values
     from probation.effects.record_view import RecordView
 
 
@@ -112,9 +112,15 @@ def _compliance(effect: Effect, size: _Size) -> tuple[Form, ...]:
     return linear, replace(_of_travel(contact, whole), starts=lambda _views, _residuals: grid)
 
 
+def _slack_from_zero(view: RecordView, values: Values) -> FloatArray:
+    """Nothing is seen until the elongation exceeds a: from zero, which the first reading may be far from."""
+    elongation = np.expm1(view.true_strain)
+    return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, 0.0))))
+
+
 def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:
     # Slack ends between two samples, where the force begins to rise.
-    large = _of_travel(effect.form("slack"), size.elongation)
+    large = _of_travel(replace(effect.form("slack"), driving_strain=_slack_from_zero), size.elongation)
     fixed = large.nonlinear_starts(())
 
     def starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
