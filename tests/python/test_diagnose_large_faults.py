@@ -129,7 +129,9 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     assert found.verdict == "explained"
     assert set(best.effects) == {"machine_compliance", "strain_offset"}
     assert best.probability > 0.8
-    value = {each.name: each.value for each in best.parameters}
+    value = dict.fromkeys((each.name for each in best.parameters), 0.0)
+    for each in best.parameters:  # a second form of slack may share it
+        value[each.name] += each.value
     assert value["compliance_per_MPa"] == pytest.approx(size, rel=0.01)
     assert value["slack_strain"] == pytest.approx(slack, rel=0.01)
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
