@@ -88,7 +88,7 @@ def at_every_look(_):
 def test_a_search_that_is_ended_says_that_and_is_sure_of_nothing(clock, monkeypatch):
     found, truth = ended(monkeypatch, clock(monkeypatch)), "rate_dependent_relaxation"
     assert "nothing that was tried explains it" in found.headline
-    end = r"; the budget of 20 s ended the search: \d+ of 27 effects were not refitted to the end\.$"
+    end = r"; the budget of 20 s ended the search: \d+ of 29 effects were not refitted to the end\.$"
     assert re.search(end, found.headline)
     assert max(each.probability for each in found.effects if each.name not in (truth, "unknown")) < 0.9
     assert found.best.probability < 0.9
