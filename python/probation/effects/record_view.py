@@ -32,9 +32,9 @@ if TYPE_CHECKING:
 
 _MOVING = 10.0 * RATE_FLOOR
 
-TAUT = 0.05
-"""Part of a step. What a specimen misses until it first moves is slack if it is more of what was recorded until then,
-and if the step after misses less of that.
+TAUT = 1e-3
+"""Part of an elongation. What a specimen misses until it first moves is slack if it is more of what was recorded until
+then, and if the step after misses less of that.
 """
 
 
@@ -404,10 +404,11 @@ class RecordView:
         first = int(np.argmax(true_strain > true_strain[0]))
         if first == 0 or first + 1 >= len(true_strain):
             return 0
-        recorded = self.true_strain
-        missed = [float(recorded[k] - true_strain[k]) - float(recorded[0] - true_strain[0]) for k in (first, first + 1)]
-        slack = missed[0] > TAUT * float(recorded[first] - recorded[0])
-        return first if slack and abs(missed[1] - missed[0]) < TAUT * missed[0] else 0
+        places = [0, first, first + 1]
+        recorded, seen = (np.expm1(each[places] - each[0]) for each in (self.true_strain, true_strain))
+        missed = recorded - seen
+        slack = missed[1] > TAUT * recorded[1]
+        return first if slack and abs(missed[2] - missed[1]) < TAUT * missed[1] else 0
 
     def _with(self, **changed: object) -> RecordView:
         """The same with other values. `replace` takes some ten times as long; a search makes 40 000 views."""
