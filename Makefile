@@ -28,6 +28,9 @@ requirements = $(BIN)/python -c 'import sys, tomllib; \
 # $(call engine,CPP_TESTS,EXTRAS): build the extension and install the package, which stays editable.
 engine = $(PIP) install --no-build-isolation --config-settings=cmake.define.PROBATION_CPP_TESTS=$(1) \
     --config-settings=cmake.define.PROBATION_WERROR=$(WERROR) -e '.$(2)'
+# $(call configure,FOLDER): what cmake makes of this folder with the C++ tests; further options follow.
+configure = $(BIN)/cmake -G Ninja -DCMAKE_MAKE_PROGRAM=$(BIN)/ninja -S . -B $(1) --log-level=WARNING \
+    -DPROBATION_CPP_TESTS=ON -DPython_EXECUTABLE=$(BIN)/python -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test docs pictures fuzz bench fe blind lint format sanitize wheel clean
@@ -80,9 +83,7 @@ lint: $(VENV)/.engine-tests $(VENV)/.lint  ## ruff, mypy, clang-format, clang-ti
 	@$(BIN)/mypy
 	@$(BIN)/clang-format --dry-run -Werror $(CPP_FILES)
 	@# How every file is compiled by itself; nothing is built there.
-	@$(BIN)/cmake -G Ninja -DCMAKE_MAKE_PROGRAM=$(BIN)/ninja -S . -B build/tidy --log-level=WARNING -DCMAKE_UNITY_BUILD=OFF \
-	    -DPROBATION_CPP_TESTS=ON -DPython_EXECUTABLE=$(BIN)/python \
-	    -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
+	@$(call configure,build/tidy) -DCMAKE_UNITY_BUILD=OFF
 	@printf '%s\n' $(filter-out bench/% tests/cpp/consumer/%,$(filter %.cpp,$(CPP_FILES))) | xargs -P "$$(nproc)" -n 1 \
 	    $(BIN)/clang-tidy -p build/tidy --quiet --extra-arg=-Wno-unknown-warning-option \
 	    --extra-arg=-Wno-ignored-optimization-argument \
@@ -95,11 +96,8 @@ format: $(VENV)/.lint  ## rewrite the sources as lint wants them
 	@$(BIN)/clang-format -i $(CPP_FILES)
 
 sanitize: $(VENV)/.engine-tests  ## C++ tests, tests/boundary and tests/verification under address and undefined-behaviour sanitizers
-	@$(BIN)/cmake -G Ninja -DCMAKE_MAKE_PROGRAM=$(BIN)/ninja -S . -B build/sanitize --log-level=WARNING -DCMAKE_BUILD_TYPE=RelWithDebInfo \
-	    -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' \
-	    -DPROBATION_SANITIZE=ON -DPROBATION_WERROR=$(WERROR) \
-	    -DPROBATION_CPP_TESTS=ON -DPython_EXECUTABLE=$(BIN)/python \
-	    -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
+	@$(call configure,build/sanitize) -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO='-O1 -g' \
+	    -DPROBATION_SANITIZE=ON -DPROBATION_WERROR=$(WERROR)
 	@$(BIN)/cmake --build build/sanitize
 	@$(BIN)/ctest --test-dir build/sanitize --output-on-failure --no-tests=error
 	@rm -rf build/sanitize/site && mkdir -p build/sanitize/site

@@ -18,6 +18,7 @@ import numpy as np
 
 from probation.effects.catalogue.machine_compliance import REFERENCE_STRESS as CONTACT_STRESS
 from probation.effects.catalogue.machine_compliance import gross_contact
+from probation.effects.catalogue.strain_offset import behind_slack
 from probation.effects.catalogue.stress_activated_flow import REFERENCE_STRESS
 from probation.settings.effects import EFFECTS
 
@@ -114,8 +115,7 @@ def _compliance(effect: Effect, size: _Size) -> tuple[Form, ...]:
 
 def _slack_from_zero(view: RecordView, values: Values) -> FloatArray:
     """Nothing is seen until the elongation exceeds a: from zero, which the first reading may be far from."""
-    elongation = np.expm1(view.true_strain)
-    return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, 0.0))))
+    return behind_slack(view.true_strain, values[0], begin=0.0)
 
 
 def _slack(effect: Effect, size: _Size) -> tuple[Form, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
@@ -404,11 +405,11 @@ class RecordView:
         first = int(np.argmax(true_strain > true_strain[0]))
         if first == 0 or first + 1 >= len(true_strain):
             return 0
-        places = [0, first, first + 1]
-        recorded, seen = (np.expm1(each[places] - each[0]) for each in (self.true_strain, true_strain))
-        missed = recorded - seen
-        slack = missed[1] > TAUT * recorded[1]
-        return first if slack and abs(missed[2] - missed[1]) < TAUT * missed[1] else 0
+        recorded, seen = self.true_strain, true_strain
+        moved, after = (math.expm1(recorded[at] - recorded[0]) for at in (first, first + 1))
+        missed = moved - math.expm1(seen[first] - seen[0])
+        further = after - math.expm1(seen[first + 1] - seen[0]) - missed
+        return first if missed > TAUT * moved and abs(further) < TAUT * missed else 0
 
     def _with(self, **changed: object) -> RecordView:
         """The same with other values. `replace` takes some ten times as long; a search makes 40 000 views."""

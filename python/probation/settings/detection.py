@@ -38,7 +38,7 @@ class DetectionSettings:
     trend_alike: float = chosen(
         3.0,
         "log likelihood",
-        "A variable that the deviations follow less well by less than this is told as well: a ratio of 20, from which "
+        "A variable that the deviations follow less well by less than this is named, too: a ratio of 20, from which "
         "on evidence is strong.",
         source="Kass & Raftery 1995",
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from probation.effects.backlash import behind
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.presliding import presliding
 from probation.effects.visible import unloads
 
 if TYPE_CHECKING:
@@ -65,11 +66,9 @@ def _presliding(view: RecordView, values: Values, stress: FloatArray) -> FloatAr
     """
     force = stress / view.stretch
     largest = max(float(np.max(np.abs(force))), 1e-300)
-    slid = np.zeros(len(force))
-    for begin, end in itertools.pairwise(_turns(force)):
-        gone = force[begin + 1 : end + 1] - force[begin]
-        way = np.sign(gone[-1])
-        slid[begin + 1 : end + 1] = way + (slid[begin] - way) * np.exp(-np.abs(gone) / (values[1] * largest))
+    turns = itertools.pairwise(_turns(force))
+    pieces = ((slice(begin + 1, end + 1), begin, float(np.sign(force[end] - force[begin]))) for begin, end in turns)
+    slid = presliding(force, pieces, values[1] * largest)
     return np.asarray((force - 0.5 * values[0] * largest * slid) * view.stretch)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from probation.effects.backlash import behind
 from probation.effects.effect import Effect, EffectParameter, Form, Values
+from probation.effects.presliding import presliding
 from probation.effects.visible import unloads
 from probation.settings.effects import EFFECTS
 
@@ -75,11 +76,8 @@ def _sliding(view: RecordView, values: Values, stress: FloatArray) -> FloatArray
 
 def _building_up(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:
     """The same, built up over a way w of the stretch from every turn on: dz = (sgn dl - z) |dl| / w, exact; f z."""
-    slid, stretch = np.zeros(len(stress)), view.stretch
-    for piece, begin, sign in _pieces(view):
-        gone = np.maximum.accumulate(np.maximum(sign * (stretch[piece] - stretch[begin]), 0.0))
-        slid[piece] = sign + (slid[begin] - sign) * np.exp(-gone / values[1])
-    return np.asarray(stress + values[0] * slid * stretch)
+    stretch = view.stretch
+    return np.asarray(stress + values[0] * presliding(stretch, _pieces(view), values[1]) * stretch)
 
 
 def _with_the_force(view: RecordView, values: Values, stress: FloatArray) -> FloatArray:

@@ -46,8 +46,13 @@ LEAST_STRETCH = 0.1
 
 def _slack(view: RecordView, values: Values) -> FloatArray:
     """Slack is taken up first: the specimen sees nothing until the elongation exceeds the first reading by a."""
-    elongation, first = np.expm1(view.true_strain), np.expm1(view.recorded_strain[0])
-    return np.asarray(np.log1p(np.maximum(elongation - values[0], np.minimum(elongation, first))))
+    return behind_slack(view.true_strain, values[0], float(np.expm1(view.recorded_strain[0])))
+
+
+def behind_slack(true_strain: FloatArray, slack: float, begin: float) -> FloatArray:
+    """True strain (n,) of what sees no elongation beyond `begin` until the slack is taken up."""
+    elongation = np.expm1(true_strain)
+    return np.asarray(np.log1p(np.maximum(elongation - slack, np.minimum(elongation, begin))))
 
 
 def _toe(view: RecordView, values: Values) -> FloatArray:
