@@ -288,7 +288,8 @@ class Search:
         more = [candidate for candidate in others if cause_key(candidate.cause) in keys]
         polished = self._further(running, self._jobs(base.refit, each_alone(more), base.other_starts))
         self.found += self._judged(polished)
-        if self._gap_left(polished) > SEARCH.strong_gap:
+        # What acts in several records with numbers of its own in each may stand in for two faults of all.
+        if self._gap_left(of_one_cause(polished)) > SEARCH.strong_gap:
             self.found += self._judged(self._begun_jointly(of_one_cause(begun)))
         self._forms_of_the_leader()
 
