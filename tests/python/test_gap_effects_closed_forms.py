@@ -22,6 +22,7 @@ from probation.inference.callable_law import CallableLaw
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.model import CampaignModel
 from probation.law.companion import WEISSENBERG_AS_PRINTED
+from probation.law.modification import Modification
 from probation.law.spectrum import Spectrum
 from probation.published.experiments import experiment
 from probation.records.record import Noise, Record
@@ -385,6 +386,20 @@ def test_feedbacks_are_those_of_an_independent_integration(name, form, values, s
     found, _ = predicted(law, record, name, form, values, scheme="sa3", substeps=4)
     without = law.stress(record.time, record.true_strain, scheme="sa3")
     assert np.max(np.abs(expected - without)) > 0.5
+    np.testing.assert_allclose(found, expected, atol=2e-3)
+
+
+def test_a_late_thermometer_shows_what_the_specimen_was_before():
+    """A rise of b t is read as b (t - T (1 - e^(-t/T))); it drives the law as b t does."""
+    record, rate, delay = ramp(samples=600), 0.02, 15.0
+    time = record.time
+    late = replace(record, temperature=23.0 + rate * (time + delay * np.expm1(-time / delay)))
+    found, _ = predicted(LAW, late, "self_heating", "measured_late", (0.1, 0.05, delay))
+    warmed = Modification(
+        relaxation_time_factor=np.exp(-0.1 * rate * time), hardening_factor=np.exp(-0.005 * rate * time)
+    )
+    expected = LAW.stress(time, record.true_strain, modification=warmed)
+    assert np.max(np.abs(expected - LAW.stress(time, record.true_strain))) > 0.5
     np.testing.assert_allclose(found, expected, atol=2e-3)
 
 

@@ -37,11 +37,21 @@ def passed(view: RecordView, instant: float, duration: float = 0.0) -> FloatArra
 
 def likely_instants(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[float]:
     """An even grid and, with residuals, the two instants of each record where they jump most."""
-    instants = list(_EVEN)
+    return [*_EVEN, *sudden_instants(views, residuals)]
+
+
+def sudden_instants(
+    views: Sequence[RecordView], residuals: Sequence[FloatArray] | None, *, beside_jumps: bool = True
+) -> list[float]:
+    """The two instants of each record where residuals jump most; also, if wanted, where the strain's rate does."""
+    instants = []
     for view, residual in zip(views, residuals or (), strict=False):
         window = max(len(residual) // 100, 2)
         means = np.convolve(residual, np.ones(window) / window, mode="valid")
         jump = np.abs(means[window:] - means[:-window])
+        places = [] if beside_jumps else [corner // view.stride - window for corner in view.jumps]
+        for place in places:
+            jump[max(place - 2 * window, 0) : max(place + 2 * window, 0)] = 0.0
         for _ in range(2):
             best = int(np.argmax(jump))
             instant = view.sampled(view.elapsed)[best + window] / view.duration

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from probation.diagnosis.headline import titles
 from probation.effects.registry import effects as known_effects
 from probation.inference.unknown import UNKNOWN
 from probation.provenance import provenance
@@ -79,6 +80,7 @@ def _short(diagnosis: Diagnosis) -> Section:
     shown = [f"{explanation_name(each, diagnosis)} ({chance(each.probability)})" for each in best[:_SHOWN]]
     which = listed([*shown, *([f"{len(best) - _SHOWN} more"] if len(best) > _SHOWN else [])])
     apart = "; the data cannot discriminate between these" if len(best) > 1 else ""
+    apart += _alone_or_with_others(diagnosis)
     rows = [("Where", f"{where}."), ("Which", f"{_capital(which)}{apart}.")]
     rows.append(("How far", _capital(_how_far(diagnosis))))
     if diagnosis.remainder is not None:
@@ -87,6 +89,15 @@ def _short(diagnosis: Diagnosis) -> Section:
         rows.append(("Next test", diagnosis.next_test.what))
     rows += [("Mind" if at == 0 else "", sentence(warning)) for at, warning in enumerate(diagnosis.warnings)]
     return Section("In short", (Table(("", "what was found"), tuple(rows), left=2),))
+
+
+def _alone_or_with_others(diagnosis: Diagnosis) -> str:
+    """The probability that a headline gives to what it names, where that is another one than of the explanation."""
+    named = [effect.name for effect in diagnosis.effects if effect.named]
+    together = sum(each.probability for each in diagnosis.explanations if {*named} <= {*each.effects})
+    if not named or chance(together) == chance(diagnosis.best.probability):
+        return ""
+    return f"; {titles(named)}, alone or with others: {chance(together)}"
 
 
 def _capital(text: str) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.effects.effect import Effect, EffectParameter, Form, Values
-from probation.effects.instants import INSTANT, likely_instants, passed
+from probation.effects.instants import INSTANT, likely_instants, passed, sudden_instants
 from probation.effects.visible import unloads
 
 if TYPE_CHECKING:
@@ -50,11 +50,6 @@ def _settling(view: RecordView, values: Values, stress: FloatArray) -> FloatArra
     return np.asarray(stress + offset * view.stretch)
 
 
-def _never_taken_back(views: Sequence[RecordView]) -> bool:
-    """Where the strain is taken back, what the material does at the reversal would be taken for a jump."""
-    return not unloads(views)
-
-
 def _durations(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Time constants [s]: a tenth of the shortest record, half the median one, half the longest."""
     durations = [view.duration for view in views]
@@ -63,6 +58,9 @@ def _durations(views: Sequence[RecordView], residuals: Sequence[FloatArray] | No
 
 
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
+    """Where the strain is taken back, what the material does at a reversal would be taken for a jump."""
+    if unloads(views):
+        return [(instant,) for instant in sudden_instants(views, residuals, beside_jumps=False)]
     return [(instant,) for instant in likely_instants(views, residuals)]
 
 
@@ -91,7 +89,6 @@ EFFECT = Effect(
             recorded_stress=_jump,
             starts=_starts,
             sharp="step",
-            needs=_never_taken_back,
             variant=True,
         ),
         Form(

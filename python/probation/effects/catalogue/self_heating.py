@@ -69,6 +69,18 @@ _HARDENING_PART = EffectParameter(
     reason="-d ln G / dT over the softening: G of polyethylene falls by about 0.5 % per degree",
 )
 _MEASURED = (_MEASURED_SOFTENING, _HARDENING_PART)
+_DELAY = EffectParameter(
+    name="delay_s",
+    unit="s",
+    lower=0.3,
+    upper=300.0,
+    centre=10.0,
+    scale=1.0,
+    log=True,
+    starts=(3.0, 20.0),
+    reason="of a thermocouple in air, or from the middle of 4 mm of polymer to its surface: seconds to half a minute",
+)
+_MEASURED_LATE = (*_MEASURED, _DELAY)
 _LOSS = EffectParameter(
     name="stress_loss_per_MPa",
     unit="1/MPa",
@@ -121,12 +133,25 @@ def _warm(view: RecordView, values: Values) -> Modification:
 
 def _as_measured(view: RecordView, values: Values) -> Modification | None:
     """T is the measured temperature less that at the start; tau_max e^(-a T), G e^(-b a T)."""
-    if (rise := view.measured_rise) is None:
-        return None
-    softening, hardening = values
+    return None if view.measured_rise is None else _warmed(view.measured_rise, values)
+
+
+def _as_measured_late(view: RecordView, values: Values) -> Modification | None:
+    """The same, the measured rise being late by a first-order lag: T = T_m + delay T_m'."""
+    return None if (rise := _before_the_delay(view, values[2])) is None else _warmed(rise, values)
+
+
+def _warmed(rise: FloatArray, values: Values) -> Modification:
+    softening, hardening = values[:2]
     return Modification(
         relaxation_time_factor=np.exp(-softening * rise), hardening_factor=np.exp(-hardening * softening * rise)
     )
+
+
+def _before_the_delay(view: RecordView, delay: float) -> FloatArray | None:
+    """The rise (n,) [°C] that a thermometer follows with a time constant; None where it was not measured."""
+    rise = view.measured_rise
+    return None if rise is None else rise + delay * np.gradient(rise, view.time)
 
 
 def _thermally_activated(view: RecordView, values: Values) -> Modification:
@@ -157,6 +182,8 @@ def _warming(view: RecordView, values: Values) -> FloatArray:
     """The measured rise [°C]; else what the recorded work brought, less what has cooled off, per heating [MPa]."""
     if len(values) == len(_MEASURED) and view.measured_rise is not None:
         return view.measured_rise
+    if len(values) == len(_MEASURED_LATE) and (rise := _before_the_delay(view, values[2])) is not None:
+        return rise
     return _kept_work(view, values[1])
 
 
@@ -179,14 +206,14 @@ EFFECT = Effect(
     physics=(
         "Plastic work turns into heat faster than it leaves: the specimen warms, relaxes faster and hardens less.\n"
         "Amplitude: warming per plastic work; where every record has its measured temperature, that drives the law, "
-        "and the amplitude is the loss of ln tau_max per degree. Thermally activated: that per heat of the recorded "
-        "work. Of the stress: its relative loss per work."
+        "and the amplitude is the loss of ln tau_max per degree; late: of a thermometer that lags behind. Thermally "
+        "activated: that per heat of the recorded work. Of the stress: its relative loss per work."
     ),
     source=(
         "Taylor & Quinney 1934; Arruda, Boyce & Jayachandran 1995, Mech. Mater. 19, 193; Johnson & Cook 1983 (the "
         "stress falls in proportion to the warming); Arrhenius 1889, Williams, Landel & Ferry 1955, J. Am. Chem. Soc. "
         "77, 3701 (times over temperature); Boyce, Parks & Argon 1988, Mech. Mater. 7, 15 (heat is the work of the "
-        "stress beyond the network's)"
+        "stress beyond the network's); IEC 60751 (response time of thermometers)"
     ),
     shows_in="fast records at large strains, against slow ones that stay cool; a measured temperature judges it",
     kind="material",
@@ -207,5 +234,6 @@ EFFECT = Effect(
         ),
         Form("of_the_stress", (_LOSS, _COOLING), modification=_of_the_stress, needs=_not_all_measured, variant=True),
         Form("as_measured", _MEASURED, modification=_as_measured, needs=warms_by_work),
+        Form("measured_late", _MEASURED_LATE, modification=_as_measured_late, needs=warms_by_work, variant=True),
     ),
 )
