@@ -10,8 +10,9 @@ import probation
 from campaigns import measured
 from probation import Campaign, InputError, Law, Record, Reference, Specimens, compare
 from probation.cli import main
+from probation.comparison.headline import sized
 from probation.comparison.measured_law import MeasuredLaw
-from probation.comparison.result import Comparison
+from probation.comparison.result import ChangedParameter, ChangeExplanation, Comparison
 from probation.effects.record_view import views_of
 from probation.inference.calibration_check import CalibrationCheck
 from probation_studies.blind.inject import Injection
@@ -306,6 +307,19 @@ def test_a_gross_fault_of_the_travel_put_into_a_measured_film_is_named_alone(fau
     told = measured.told(found, campaign, done)
     assert told["named"], found.summary()
     assert told["value"] == pytest.approx(size, rel=0.01)
+
+
+def test_sizes_of_one_name_are_told_with_their_records():
+    def size(name, value, *records):
+        return ChangedParameter("machine_compliance", name, "", records, value, (value - 0.1, value + 0.1))
+
+    both = size("power", 1.0, "slow", "fast")
+    apart = size("compliance", 0.2, "slow"), size("compliance", 0.3, "fast")
+    assert sized(ChangeExplanation(("machine_compliance",), ("slow", "fast"), 1.0, (*apart, both))) == [
+        "compliance = 0.2 in slow (95 %: 0.1 to 0.3)",
+        "compliance = 0.3 in fast (95 %: 0.2 to 0.4)",
+        "power = 1 (95 %: 0.9 to 1.1)",
+    ]
 
 
 def test_compare_is_public():

@@ -13,7 +13,7 @@ from probation.wording import chance
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from probation.comparison.result import ChangedParameter, ChangeExplanation
+    from probation.comparison.result import ChangeExplanation
     from probation.diagnosis.attribution import Attribution
 
 
@@ -51,7 +51,7 @@ def headline(
     where = "all records" if len(shown.records) == count and count > 1 else ", ".join(shown.records)
     text = f"Since {reference}: {named(shown)} in {where} (probability {chance(_acting(shown, explanations))})"
     if shown.parameters:
-        text += ": " + "; ".join(sized(parameter) for parameter in shown.parameters[:3])
+        text += ": " + "; ".join(sized(shown, most=3))
     if len(shown.effects) < len(best.effects):
         text += adds_little()
     return text + ("; it leaves more than noise." if left and UNKNOWN not in best.effects else ".")
@@ -73,7 +73,12 @@ def _with_named(best: ChangeExplanation, parts: Attribution) -> ChangeExplanatio
     return replace(best, effects=effects, records=records, parameters=parameters)
 
 
-def sized(each: ChangedParameter) -> str:
-    """A size with its interval."""
-    low, high = each.interval95
-    return f"{each.name} = {each.value:.3g} (95 %: {low:.3g} to {high:.3g})"
+def sized(explanation: ChangeExplanation, most: int | None = None) -> list[str]:
+    """Sizes with their intervals, as many as wanted; with its records, where there is another of that name."""
+    names = [(each.effect, each.name) for each in explanation.parameters]
+    lines = []
+    for each in explanation.parameters[:most]:
+        low, high = each.interval95
+        where = f" in {', '.join(each.records)}" if names.count((each.effect, each.name)) > 1 else ""
+        lines.append(f"{each.name} = {each.value:.3g}{where} (95 %: {low:.3g} to {high:.3g})")
+    return lines

@@ -103,7 +103,7 @@ def _explanations(comparison: Comparison) -> Table:
             "★" if explanation in comparison.answer_set else "",
             named(explanation),
             ", ".join(explanation.records),
-            "\n".join(map(sized, explanation.parameters)),
+            "\n".join(sized(explanation)),
             chance(explanation.probability),
         )
         for explanation in comparison.explanations[:_EXPLANATIONS]

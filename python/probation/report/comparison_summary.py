@@ -24,7 +24,7 @@ def comparison_summary(comparison: Comparison) -> str:
         where = ", ".join(explanation.records)
         text = f"{star} {chance(explanation.probability):>6}  {named(explanation)}" + (f" in {where}" if where else "")
         lines.append(fill(text, WIDTH, subsequent_indent=12 * " "))
-        lines += [f"            {sized(parameter)}" for parameter in explanation.parameters]
+        lines += [f"            {size}" for size in sized(explanation)]
     lines.append("")
     for name, others in comparison.pairs.items():
         text = (
