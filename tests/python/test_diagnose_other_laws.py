@@ -1,5 +1,7 @@
 """Another law, and effects of a user's own, go through the same diagnosis."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -57,6 +59,42 @@ def test_an_offset_in_one_record_of_a_maxwell_bar_is_named_with_its_record():
 def test_effects_that_a_law_does_not_understand_are_not_considered():
     found = probation.diagnose(campaign(), law=maxwell_bar(), design=False)
     assert all("rate_dependent_relaxation" not in each.effects for each in found.explanations)
+
+
+def test_effects_that_a_law_does_not_understand_count_as_unknown_where_all_records_miss():
+    """A second Maxwell element beside the bar's: with other times alone no cause may be sure of it."""
+
+    def second(name, time, strain, stress):
+        rate = strain[-1] / time[-1]
+        return stress + 60.0 * 90.0 * rate * -np.expm1(-time / 90.0)
+
+    found = probation.diagnose(campaign(second), law=maxwell_bar(), design=False)
+    assert found.best.probability < 0.75
+    assert found.answer_set[0] == ("unknown",) or ("unknown",) in found.answer_set
+    [said] = [warning for warning in found.warnings if "cannot follow" in warning]
+    assert "a slow process" in said
+
+
+def test_no_form_is_tried_that_a_law_does_not_understand():
+    """Mullins softening has forms of the area and of the network; the law follows the area alone, over a cycle."""
+
+    def area_alone(time, strain, parameters, modification):
+        area = None if modification is None else modification.load_bearing_area
+        return parameters[0] * strain * (1.0 if area is None else area)
+
+    law = CallableLaw(
+        area_alone, ("modulus_MPa",), (100.0,), (0.0,), (1e4,), capabilities=frozenset({"load_bearing_area"})
+    )
+    made = []
+    for index, rate in enumerate((1e-3, 4e-3)):
+        strain = np.concatenate([[0.0], *(np.linspace(a, b, 91)[1:] for a, b in pairwise([0.0, 0.3, 0.1, 0.45]))])
+        time = np.append(0.0, np.cumsum(np.abs(np.diff(strain)))) / rate
+        lost = -0.08 * np.expm1(-(np.maximum.accumulate(strain) - strain) / 0.05)
+        noise = 0.05 * np.random.default_rng(index).standard_normal(len(time))
+        stress = 120.0 * strain * (1.0 - lost) + noise
+        made.append(Record(id=f"r{index}", time=time, true_strain=strain, true_stress=stress))
+    found = probation.diagnose(Campaign("cycles", tuple(made), specimens=Specimens("none")), law=law, design=False)
+    assert any("mullins_softening" in effects for effects in found.answer_set)
 
 
 def test_a_users_own_effect_is_found_once_it_is_registered():

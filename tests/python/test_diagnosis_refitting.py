@@ -39,7 +39,7 @@ def test_copies_find_what_one_process_finds_to_the_last_digit(base, jobs):
         begun = [fit for fit in refitting.refits(jobs, 2, Budget()) if isinstance(fit, Refit)]
         ended = refitting.refits([(fit.model, fit) for fit in begun], MOST_STEPS, Budget())
         weighed = refitting.evidences(ended, unknown=True)
-        screened = [each for one in refitting.candidates(base.extended(EFFECTS)) for each in one]
+        screened = refitting.candidates([base.extended(EFFECTS)])[0]
         refitting.close()
         found.append(
             [(fit.parameters.tolist(), known.log_evidence_unknown) for fit, known in zip(ended, weighed, strict=True)]

@@ -21,6 +21,7 @@ from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
 from probation.parallel import without_blas_threads
 from probation.progress import Part, shows_progress
+from probation.records.until_break import until_break
 from probation.settings.certificate import CERTIFICATE
 from probation.smoothing.excitation import excitations_of
 
@@ -94,11 +95,11 @@ def certify(
             f"campaign {campaign.name!r}: found one record, expected at least two: "
             "the probation test predicts one record from others"
         )
+    campaign, _ = until_break(campaign)
     if hold:
         campaign = replace(campaign, law=replace(campaign.law, fixed={**campaign.law.fixed, **hold}))
     fits = CertificateFits(campaign, as_scheme(scheme, DIFFERENTIABLE), excitation)
-    records = campaign.records
-    rated = campaign.law.companion is not None
+    records, rated = campaign.records, campaign.law.companion is not None
     total = 1 + (len(records) if not campaign.held_out else 0) + len(records) * (3 + rated)
     done = 0
 

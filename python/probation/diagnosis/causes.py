@@ -164,12 +164,14 @@ def causes_of(
         tempered = Tempered(EVIDENCE.evidence_power)  # no form describes anything here
         weighed = given_no_gap(probabilities_of(hypotheses, effect_count(considered), tempered), p_value)
         return Causes(base, considered, hypotheses, weighed, {}, "no_gap", tempered)
-    considered = with_large_forms(considered, base.model.views)
+    visible_count = len(considered)
+    considered = base.model.followed(with_large_forms(considered, base.model.views))
     base, hypotheses, cut = _searched(base, considered, threads, skipping, budget, progress)
     hypotheses = [hypothesis.as_reached(hypotheses[0]) for hypothesis in hypotheses]
     account = HeldToAccount(base, seed=seed)
 
-    trust = trust_in(calibration)
+    followed = len(considered) if _acts_everywhere(hypotheses) else visible_count
+    trust = trust_in(calibration, followed, visible_count)
     weighed = probabilities_of(hypotheses, effect_count(considered), trust)
     weighed = none_behind(account.ranked(given_a_gap(weighed, p_value)))
     left, checked = _judged(leading(weighed), base, account, seed)
@@ -178,6 +180,12 @@ def causes_of(
         UNKNOWN in best.effects or left or account.worse(best.hypothesis) or _another_acts(best.hypothesis, base, seed)
     )
     return Causes(base, considered, hypotheses, weighed, checked, "unexplained" if more else "explained", trust, cut)
+
+
+def _acts_everywhere(hypotheses: Sequence[Hypothesis]) -> bool:
+    """Whether the best known explanation acts in all records, as an effect that the law cannot follow would."""
+    best = max(hypotheses[1:], key=lambda each: each.evidence.log_evidence, default=hypotheses[0])
+    return not best.causes or len(best.records) == len(best.refit.model.views)
 
 
 def _searched(

@@ -40,6 +40,7 @@ from probation.noise.whitening import Whitened
 from probation.parallel import at_once, both, without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
+from probation.records.until_break import until_break
 from probation.settings.detection import DETECTION
 from probation.settings.noise import NOISE
 from probation.settings.search import SEARCH
@@ -131,6 +132,7 @@ def diagnose(
 
     for record in campaign.records:
         require_signal(record)
+    campaign, broken = until_break(campaign)
     campaign, thinned = thin(campaign)
 
     def done(part: float, doing: str = "") -> None:
@@ -169,6 +171,7 @@ def diagnose(
         progress=lambda part: done(0.15 + 0.55 * part, "trying causes"),
         calibration=calibration,
     )
+    beyond_the_law = _not_followed(considered, causes.considered)
     base, considered, hypotheses = causes.base, causes.considered, causes.found
     if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
@@ -242,7 +245,7 @@ def diagnose(
         next_test=following[0] if following else None,
         next_tests=following,
         curves=curves,
-        warnings=(*thinned, *_warnings(base, gap.test.robust), *calibration.warnings),
+        warnings=(*broken, *thinned, *_warnings(base, gap.test.robust), *beyond_the_law, *calibration.warnings),
         data_sha256=campaign.data_hash,
         seed=seed,
         isolability=apart,
@@ -378,6 +381,20 @@ def _with_predictions(base: BaseFit) -> Whitened:
     """The fitted records and the others together, nothing of which is refitted to the latter."""
     records, noises = predictions(base)
     return Whitened.of([*base.whitened.records, *records], [*base.whitened.noises, *noises])
+
+
+def _not_followed(visible_effects: Sequence[Effect], followed: Sequence[Effect]) -> tuple[str, ...]:
+    """One sentence where the law cannot follow effects that the records could show; empty where it follows all."""
+    names = {effect.name for effect in followed}
+    others = [effect.title for effect in visible_effects if effect.name not in names]
+    if not others:
+        return ()
+    text = (
+        f"the law cannot follow {len(others)} of the {len(visible_effects)} effects that these records could show "
+        f"({', '.join(others)}): they count as unknown, and what one of them does may look like another cause; give "
+        "the law more capabilities"
+    )
+    return (text,)
 
 
 def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:

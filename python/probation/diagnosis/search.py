@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from itertools import chain, combinations, compress, product
+from itertools import combinations, compress, product
 from operator import attrgetter
 from typing import TYPE_CHECKING, Self
 from weakref import WeakKeyDictionary
@@ -257,8 +257,7 @@ class Search:
 
     def candidates(self) -> list[Candidate]:
         """Where single effects may begin, most gain first."""
-        extended = self.base.extended(self.effects, self.skipping.screened)
-        started = list(chain(*self.refitting.candidates(extended)))
+        [started] = self.refitting.candidates([self.base.extended(self.effects, self.skipping.screened)])
         for start in self.base.other_starts if self.base.screens_other_starts else ():
             started += self._candidates_at(start)
         return sorted(started, key=lambda candidate: -candidate.gain)

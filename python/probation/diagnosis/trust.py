@@ -132,18 +132,29 @@ class OtherForms:
         return log(odds) + float(self.fall(np.asarray(distance)))
 
 
-def trust_in(calibration: CalibrationCheck) -> Trust:
-    """How far evidence counts in a campaign: less where nobody has seen how far it is to be trusted."""
+def trust_in(calibration: CalibrationCheck, followed: int = 1, visible: int = 1) -> Trust:
+    """How far evidence counts in a campaign: less where nobody has seen how far it is to be trusted.
+
+    Effects that the records could show, but the law cannot follow, count as unknown ones: each has the odds of a single
+    effect, and the part that they are is not bounded by what an unknown may keep.
+
+    Parameters
+    ----------
+    calibration : CalibrationCheck
+    followed, visible : int
+        Effects that the law can follow, of those that the records could show.
+    """
     if calibration.inside:
         return Tempered(EVIDENCE.evidence_power)
+    beyond = visible - followed
     return OtherForms(
         fall_with_distance=CALIBRATED.fall_with_distance,
         unknown_power=CALIBRATED.unknown_power_outside,
         two=CALIBRATED.odds_of_two,
         three=CALIBRATED.odds_of_three,
-        unknown=CALIBRATED.odds_of_unknown,
+        unknown=CALIBRATED.odds_of_unknown + beyond,
         unknown_with_known=CALIBRATED.odds_of_unknown_with_known,
-        most_unknown=CALIBRATED.most_unknown_outside,
+        most_unknown=1.0 - (1.0 - CALIBRATED.most_unknown_outside) * followed / max(visible, 1),
     )
 
 

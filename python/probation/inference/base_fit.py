@@ -10,7 +10,7 @@ import numpy as np
 
 from probation.detection.noise_without_sharp import without_sharp
 from probation.effects.record_view import views_of
-from probation.inference.candidate import Extended, WhitenedColumns, for_a_search_only, for_a_test
+from probation.inference.candidate import Extended, WhitenedColumns, for_a_test
 from probation.inference.deviations import deviation_columns
 from probation.inference.discrepancy import Discrepancy
 from probation.inference.modal_law import DnlrLaw
@@ -21,6 +21,7 @@ from probation.inference.refit import Refit, refit
 from probation.inference.scatter import scatter_of, with_scatter
 from probation.inference.screen import screen
 from probation.inference.speed_wander import speed_wander
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.inference.users_law import UsersLaw
 from probation.inference.view_residual import residual_of
 from probation.law.schemes import identifying
@@ -226,12 +227,9 @@ class BaseFit:
 
     def extended(
         self, effects: Sequence[Effect], unsolved: Callable[[Cause, Exception], None] | None = None
-    ) -> tuple[Extended, Extended]:
-        """Where a search for these effects may begin: with forms at fixed starts, and `for_a_search_only`.
-
-        `unsolved` is that of `screen`.
-        """
-        read = Extended(
+    ) -> Extended:
+        """Where a search for these effects may begin; `unsolved` as in `screen`."""
+        return Extended(
             self.model,
             self.parameters,
             effects,
@@ -239,9 +237,7 @@ class BaseFit:
             self.refit.residual,
             self.refit.jacobian,
             unsolved=unsolved,
-            only=for_a_search_only,
         )
-        return replace(read, read=False, only=for_a_test), read
 
     @property
     def uncertain_scatter(self) -> UncertainScatter | None:
@@ -402,15 +398,20 @@ def _turns(
 def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
     """The same with the noise as an explanation leaves it: a gap makes slow noise look larger than it is.
 
+    As it is, where the law cannot be solved a little beside the explanation.
+
     Parameters
     ----------
     base : BaseFit
     explained : Refit
         With the causes, on the same records.
     """
-    records = residuals_at(base.whitened.records, explained)
+    try:
+        records = residuals_at(base.whitened.records, explained)
+        columns = deviation_columns(explained.model, explained.parameters) if base.scatter.any else []
+    except UNSOLVABLE:
+        return base
     if base.scatter.any:
-        columns = deviation_columns(explained.model, explained.parameters)
         scatter = scatter_of(base.specimens, base.law, records, base.whitened.noises, columns)
         records = with_scatter(records, columns, scatter)
         base = replace(base, scatter=scatter)

@@ -102,15 +102,13 @@ class Extended:
     ----------
     model : CampaignModel
     parameters : ndarray, shape (n_parameters,)
-    effects, unsolved, only
-        As in `Screen.of`.
+    effects, unsolved
+        As in `Screen.of`; starts are read from the model's own residual.
     whitener : Whitener
     residual : ndarray, shape (N,)
         Whitened.
     jacobian : ndarray, shape (N, p)
         Whitened: what a refit of the model may change.
-    read : bool
-        Whether starts are read from the model's own residual.
     """
 
     model: CampaignModel
@@ -119,9 +117,7 @@ class Extended:
     whitener: Whitener
     residual: FloatArray
     jacobian: FloatArray
-    read: bool = True
     unsolved: Callable[[Cause, Exception], None] | None = None
-    only: Callable[[Form], bool] | None = None
 
     @cached_property
     def span(self) -> FloatArray:
@@ -139,9 +135,8 @@ class Extended:
         return Screen.of(
             self.model,
             self.effects,
-            residual=self.model.residual(self.parameters) if self.read else None,
+            residual=self.model.residual(self.parameters),
             unsolved=self.unsolved,
-            only=self.only,
         )
 
     def candidates(self, found: Sequence[Onset]) -> list[Candidate]:
@@ -164,11 +159,6 @@ def noted(whitener: Whitener, index: int, directions: FloatArray, slopes: FloatA
 def for_a_test(form: Form) -> bool:
     """All but variants: more directions would be found in more noise."""
     return not form.variant
-
-
-def for_a_search_only(form: Form) -> bool:
-    """Variants, and forms whose starts are read from the residual: a gap test would find what chance put there."""
-    return form.variant or form.starts is not None
 
 
 def _ranked(columns: Sequence[Column | Onset], along: FloatArray, square: FloatArray) -> list[Candidate]:

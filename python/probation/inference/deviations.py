@@ -62,8 +62,8 @@ def deviation_columns(model: CampaignModel, parameters: FloatArray) -> list[Floa
     values = np.append(base, parameters[model.base_count :])
     residual, slopes = whole.residual_and_jacobian(values)
     stress = residual + whole.data
-    late = CampaignModel(whole.law, [view.driven(_late(view.true_strain, view.stride)) for view in whole.views])
-    shifted = late.with_causes(whole.causes).residual(values) - residual
+    late = [view.driven(_late(view.true_strain, view.stride)) for view in whole.views]
+    shifted = np.concatenate([whole.moved(*views, values) for views in zip(whole.views, late, strict=True)])
     count = len(_material(law, base)[0])
     columns = np.column_stack([slopes[:, :count] * np.abs(base[:count]), stress, shifted / _STEP])
     return [columns[rows] for _, rows in model.parts]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from probation._arrays import FloatArray
-    from probation.effects.effect import EffectParameter
+    from probation.effects.effect import Effect, EffectParameter
     from probation.effects.record_view import RecordView
     from probation.inference.protocol import GapLaw
     from probation.noise.model import NoiseModel
@@ -228,6 +228,15 @@ class CampaignModel:
         modification = cause.form.modification(self.views[0], cause.form.typical)
         return frozenset() if modification is None else modification.changed - self.law.capabilities
 
+    def followed(self, effects: Iterable[Effect]) -> tuple[Effect, ...]:
+        """The effects with those of their forms that the law can follow; without those that have none."""
+        kept = []
+        for effect in effects:
+            forms = tuple(form for form in effect.forms if not self.missing_capabilities(Cause(effect, form)))
+            if forms:
+                kept.append(effect if len(forms) == len(effect.forms) else replace(effect, forms=forms))
+        return tuple(kept)
+
     def clashes(self, cause: Cause) -> bool:
         """Whether a cause changes what a law can change once only, and one of the model's does."""
         taken = frozenset[str]().union(*(self._once(own) for own in self.causes))
@@ -379,6 +388,14 @@ class CampaignModel:
         if specimen_stress is None:
             specimen_stress = self.specimen(view, base, here).stress
         return _as_recorded(view, here, specimen_stress)
+
+    def moved(self, view: RecordView, beside: RecordView, parameters: FloatArray) -> FloatArray:
+        """What is added to the recorded stress where the view is one a little beside it; (n_samples,) [MPa]."""
+        base, causes = self.split(parameters)
+        here = _touching(causes, view)
+        specimen = self.specimen(view, base, here)
+        other = self.specimen(beside, base, here, near=specimen.own_force)
+        return view.sampled(_as_recorded(beside, here, other.stress) - _as_recorded(view, here, specimen.stress))
 
     def at_rest(self, view: RecordView, base: FloatArray, causes: CauseValues) -> tuple[Specimen, FloatArray]:
         """The specimen by the model as it is, and the recorded stress, (n,) [MPa]: where `with_one_more` begins."""

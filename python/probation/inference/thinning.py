@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING
 from probation.settings.search import SEARCH
 
 if TYPE_CHECKING:
-    from probation._arrays import FloatArray
     from probation.records.campaign import Campaign
-    from probation.records.record import Record
 
 
 def thin(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
@@ -25,21 +23,6 @@ def thin(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
         step = -(-len(record.time) // SEARCH.most_samples)
         if step > 1:
             notes.append(f"{record.id}: one of every {step} of its {len(record.time)} samples was used")
-            record = _every(record, step)  # noqa: PLW2901
+            record = record.only(slice(None, None, step))  # noqa: PLW2901
         records.append(record)
     return replace(campaign, records=tuple(records)), tuple(notes)
-
-
-def _every(record: Record, step: int) -> Record:
-    def taken(values: FloatArray | None) -> FloatArray | None:
-        return None if values is None else values[::step]
-
-    return replace(
-        record,
-        time=record.time[::step],
-        true_strain=record.true_strain[::step],
-        true_stress=record.true_stress[::step],
-        strain_rate=taken(record.strain_rate),
-        transverse_strain=taken(record.transverse_strain),
-        temperature=taken(record.temperature),
-    )

@@ -1,7 +1,7 @@
 """One test of one specimen: its samples in MPa, s and true strain, and where they came from."""
 
 import hashlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -157,6 +157,23 @@ class Record(InOneLine):
     def samples(self) -> dict[str, FloatArray]:
         """The sampled quantities that there are, by name, time first."""
         return {name: values for name in SAMPLED if (values := getattr(self, name)) is not None}
+
+    def only(self, chosen: slice, warnings: tuple[str, ...] = ()) -> "Record":
+        """The same with some of its samples, and further warnings."""
+
+        def taken(values: FloatArray | None) -> FloatArray | None:
+            return None if values is None else values[chosen]
+
+        return replace(
+            self,
+            time=self.time[chosen],
+            true_strain=self.true_strain[chosen],
+            true_stress=self.true_stress[chosen],
+            strain_rate=taken(self.strain_rate),
+            transverse_strain=taken(self.transverse_strain),
+            temperature=taken(self.temperature),
+            warnings=(*self.warnings, *warnings),
+        )
 
     @property
     def columns(self) -> dict[str, FloatArray]:

@@ -17,7 +17,7 @@ from probation.effects.registry import effects
 from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.inference.base_fit import BaseFit
-from probation.inference.candidate import WhitenedColumns, for_a_search_only
+from probation.inference.candidate import WhitenedColumns
 from probation.inference.screen import screen
 from probation.inference.thinning import thin
 
@@ -60,10 +60,8 @@ def survey(folder: Path) -> Survey:
     base = base_fit(campaign, plain_fit(campaign)).screened(catalogue)
     gap = with_sharp(GapTester(base.whitened, base.smooth_columns.by_effect())(), base.whitened).rejected
     residual = base.model.residual(base.parameters)
-    more = screen(base.model, base.parameters, catalogue, residual=residual, only=for_a_search_only)
-    return Survey(
-        campaign.name, base, WhitenedColumns.of([*base.signals, *more], base.whitener, len(base.whitened)), gap
-    )
+    columns = screen(base.model, base.parameters, catalogue, residual=residual)
+    return Survey(campaign.name, base, WhitenedColumns.of(columns, base.whitener, len(base.whitened)), gap)
 
 
 def answer(found: Survey, scored: Iterable[Scored]) -> dict[str, object]:
