@@ -31,14 +31,17 @@ from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
 from probation.records.until_break import until_break
 from probation.settings.comparison import COMPARISON
+from probation.wording import percent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from probation.comparison.result import Verdict
     from probation.detection.gap_test import GapTest
+    from probation.diagnosis.closure import Closure
     from probation.diagnosis.hypothesis import Hypothesis
     from probation.diagnosis.probabilities import Weighed
+    from probation.inference.base_fit import BaseFit
     from probation.law.schemes import Scheme, SchemeName
     from probation.records.campaign import Campaign
 
@@ -148,6 +151,7 @@ def compare(
                 parts,
                 len(kept.records),
                 reference.campaign.name,
+                specimens=_as_specimens_may(causes.base, shrink.records) if causes.base.scatter.any else "",
                 left=causes.verdict == "unexplained",
             ),
             causes.cut_text,
@@ -174,6 +178,20 @@ def compare(
         warnings=(*broken, *thinned, *calibration.warnings),
         calibration=calibration,
         leaves_a_gap=causes.verdict == "unexplained",
+    )
+
+
+def _as_specimens_may(base: BaseFit, records: Mapping[str, Closure]) -> str:
+    """How far apart the campaigns are before specimens may differ, as a clause; empty where that is no more."""
+    raw = base.model.residual(base.parameters)
+    apart = {view.id: float(np.sqrt(np.mean(raw[rows] ** 2))) for view, rows in base.model.parts}
+    farthest = max(apart, key=lambda name: apart[name])
+    if apart[farthest] <= COMPARISON.taken_for_specimens * records[farthest].before_MPa:
+        return ""
+    largest = float(np.max(np.abs(base.view(farthest).data)))
+    return (
+        f"; {farthest} is {apart[farthest]:.3g} MPa rms off, {percent(apart[farthest] / largest)} of its largest "
+        f"stress, as specimens may be ({base.scatter.text})"
     )
 
 

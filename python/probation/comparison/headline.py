@@ -34,8 +34,11 @@ def headline(
     reference: str,
     *,
     left: bool = False,
+    specimens: str = "",
 ) -> str:
     """One sentence, with the effects that close nearly all of the gap; `left` says that more than noise is left.
+
+    `specimens` is a clause for where nothing changed: how far apart the campaigns are, which specimens may be.
 
     Parameters
     ----------
@@ -46,7 +49,7 @@ def headline(
     """
     best = explanations[0]
     if not best.effects:
-        return f"Nothing changed since {reference} (probability {chance(best.probability)})."
+        return f"Nothing changed since {reference} (probability {chance(best.probability)}){specimens}."
     shown = best if parts is None else _with_named(best, parts)
     where = "all records" if len(shown.records) == count and count > 1 else ", ".join(shown.records)
     text = f"Since {reference}: {named(shown)} in {where} (probability {chance(_acting(shown, explanations))})"

@@ -40,6 +40,7 @@ from probation.noise.whitening import Whitened
 from probation.parallel import at_once, both, without_blas_threads
 from probation.progress import Part, shows_progress
 from probation.records.signal import require_signal
+from probation.records.unlike_others import unlike_others
 from probation.records.until_break import until_break
 from probation.settings.detection import DETECTION
 from probation.settings.noise import NOISE
@@ -245,7 +246,14 @@ def diagnose(
         next_test=following[0] if following else None,
         next_tests=following,
         curves=curves,
-        warnings=(*broken, *thinned, *_warnings(base, gap.test.robust), *beyond_the_law, *calibration.warnings),
+        warnings=(
+            *broken,
+            *thinned,
+            *unlike_others(campaign.records),
+            *_warnings(base, gap.test.robust),
+            *beyond_the_law,
+            *calibration.warnings,
+        ),
         data_sha256=campaign.data_hash,
         seed=seed,
         isolability=apart,

@@ -22,6 +22,7 @@ from probation.inference.modal_law import DnlrLaw
 from probation.inference.parameter import SYMBOLS, UNITS, Parameter, outside_name
 from probation.noise.whiteness import correlation_lags
 from probation.records.noise import noise_level
+from probation.records.unlike_others import unlike_others
 from probation.results.labelled import LabelledMatrix
 from probation.settings.identification import IDENTIFICATION
 
@@ -72,7 +73,7 @@ def describe(
         determined = [int(i) for i in free if names[i] not in ends.withdrawn]
         profiles = {names[i]: profile(weighted, known, i, quantile, limits) for i in determined}
     parameters: dict[str, Parameter] = {}
-    warnings = list(campaign.warnings)
+    warnings = [*campaign.warnings, *unlike_others(campaign.records)]
     for index, name in enumerate(names):
         value = float(values[index])
         if index not in free:

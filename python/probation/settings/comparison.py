@@ -12,6 +12,9 @@ class ComparisonSettings:
     """What changed between two campaigns."""
 
     reported: float = chosen(0.0001, "probability", "Probability from which on sizes are reported.")
+    taken_for_specimens: float = chosen(
+        3.0, "-", "Ratio of what a record is off to what is left where specimens may differ, from which on it is told."
+    )
     batch_spread: float = chosen(
         0.1, "-", "Natural logarithm by which a law's constants may differ from batch to batch."
     )
