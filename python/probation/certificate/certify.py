@@ -21,7 +21,7 @@ from probation.inference.parameter import outside_name
 from probation.law.schemes import DIFFERENTIABLE, as_scheme
 from probation.parallel import without_blas_threads
 from probation.progress import Part, shows_progress
-from probation.records.until_break import until_break
+from probation.records.as_tested import as_tested
 from probation.settings.certificate import CERTIFICATE
 from probation.smoothing.excitation import excitations_of
 
@@ -95,7 +95,7 @@ def certify(
             f"campaign {campaign.name!r}: found one record, expected at least two: "
             "the probation test predicts one record from others"
         )
-    campaign, _ = until_break(campaign)
+    campaign, _ = as_tested(campaign)
     if hold:
         campaign = replace(campaign, law=replace(campaign.law, fixed={**campaign.law.fixed, **hold}))
     fits = CertificateFits(campaign, as_scheme(scheme, DIFFERENTIABLE), excitation)

@@ -28,8 +28,8 @@ from probation.inference.unknown import UNKNOWN
 from probation.normal import TWO_SIDED_95
 from probation.parallel import at_once, without_blas_threads
 from probation.progress import Part, shows_progress
+from probation.records.as_tested import as_tested
 from probation.records.signal import require_signal
-from probation.records.until_break import until_break
 from probation.settings.comparison import COMPARISON
 from probation.wording import percent
 
@@ -104,7 +104,7 @@ def compare(
     workers = at_once(threads)
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     together = pair(campaign, reference.campaign, pairs)
-    campaign, broken = until_break(campaign)
+    campaign, changed = as_tested(campaign)
     campaign, thinned = thin(campaign)
     kept = replace(campaign, records=tuple(replace(r, role="identify") for r in campaign.records if r.id in together))
     for record in kept.records:
@@ -175,7 +175,7 @@ def compare(
         },
         skipped=causes.skipped(skipping),
         scatter=causes.base.scatter,
-        warnings=(*broken, *thinned, *calibration.warnings),
+        warnings=(*changed, *thinned, *calibration.warnings),
         calibration=calibration,
         leaves_a_gap=causes.verdict == "unexplained",
     )

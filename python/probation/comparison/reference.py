@@ -15,7 +15,7 @@ from probation.identify.fit import fit
 from probation.inference.modal_law import DnlrLaw
 from probation.inference.thinning import thin
 from probation.law.schemes import DIFFERENTIABLE, at_samples
-from probation.records.until_break import until_break
+from probation.records.as_tested import as_tested
 from probation.settings.comparison import COMPARISON
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Reference(ShortRepr):
             As `probation.fit`.
         """
         chosen = at_samples(scheme, DIFFERENTIABLE)
-        thinned, _ = thin(until_break(campaign)[0])
+        thinned, _ = thin(as_tested(campaign)[0])
         whole = replace(thinned, records=tuple(replace(record, role="identify") for record in thinned.records))
         identified = fit(whole, chosen, weighting="plain", method="variable-projection", gap=False)
         law = DnlrLaw(identified.law, held=identified.law.parameter_names)

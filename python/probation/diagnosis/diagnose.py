@@ -39,9 +39,9 @@ from probation.law.schemes import identifying
 from probation.noise.whitening import Whitened
 from probation.parallel import at_once, both, without_blas_threads
 from probation.progress import Part, shows_progress
+from probation.records.as_tested import as_tested
 from probation.records.signal import require_signal
 from probation.records.unlike_others import unlike_others
-from probation.records.until_break import until_break
 from probation.settings.detection import DETECTION
 from probation.settings.noise import NOISE
 from probation.settings.search import SEARCH
@@ -133,7 +133,7 @@ def diagnose(
 
     for record in campaign.records:
         require_signal(record)
-    campaign, broken = until_break(campaign)
+    campaign, changed = as_tested(campaign)
     campaign, thinned = thin(campaign)
 
     def done(part: float, doing: str = "") -> None:
@@ -247,7 +247,7 @@ def diagnose(
         next_tests=following,
         curves=curves,
         warnings=(
-            *broken,
+            *changed,
             *thinned,
             *unlike_others(campaign.records),
             *_warnings(base, gap.test.robust),

@@ -29,7 +29,7 @@ from probation.inference.unsolvable import UNSOLVABLE
 from probation.law.modal import Law
 from probation.law.schemes import Scheme, SchemeName, identifying
 from probation.progress import Part, shows_progress
-from probation.records.until_break import until_break
+from probation.records.as_tested import as_tested
 from probation.smoothing.excitation import excite_each
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def fit(
     one_of(intervals, "intervals", INTERVALS)
     if substeps != "auto" and (not isinstance(substeps, int) or isinstance(substeps, bool) or substeps < 1):
         raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number of at least 1")
-    campaign, _ = until_break(campaign)
+    campaign, _ = as_tested(campaign)
     law, held = base_law(campaign.law, hold or {})
     limits = _limits(law, bounds or {})
     views = []
@@ -183,7 +183,7 @@ def _judged(fitted: Fit, campaign: Campaign, hold: Mapping[str, float] | None) -
 
 
 def _base_of(campaign: Campaign, hold: Mapping[str, float] | None = None) -> BaseFit:
-    few = thin(until_break(campaign)[0])[0]
+    few = thin(as_tested(campaign)[0])[0]
     return base_fit(few, plain_fit(few, hold=hold)).screened(effects())
 
 

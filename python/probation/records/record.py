@@ -158,8 +158,8 @@ class Record(InOneLine):
         """The sampled quantities that there are, by name, time first."""
         return {name: values for name in SAMPLED if (values := getattr(self, name)) is not None}
 
-    def only(self, chosen: slice, warnings: tuple[str, ...] = ()) -> "Record":
-        """The same with some of its samples, and further warnings."""
+    def only(self, chosen: slice) -> "Record":
+        """The same with some of its samples."""
 
         def taken(values: FloatArray | None) -> FloatArray | None:
             return None if values is None else values[chosen]
@@ -172,7 +172,6 @@ class Record(InOneLine):
             strain_rate=taken(self.strain_rate),
             transverse_strain=taken(self.transverse_strain),
             temperature=taken(self.temperature),
-            warnings=(*self.warnings, *warnings),
         )
 
     @property

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from probation.records.campaign import Campaign
     from probation.records.record import Record
 
 LEFT = 0.1
@@ -31,26 +29,19 @@ LEAST = 10
 """Samples that are left at least."""
 
 
-def until_break(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
-    """The campaign with its records until their specimens broke, and a sentence on each that did.
+def until_break(record: Record) -> tuple[Record, str]:
+    """The record until its specimen broke, and a sentence on that; as it is, and no words, where it did not.
 
     A specimen has broken where all of its force is gone within some samples, for good, while it is stretched on.
-
-    Parameters
-    ----------
-    campaign : Campaign
     """
-    records, notes = [], []
-    for record in campaign.records:
-        if (end := _end(record)) < len(record):
-            note = (
-                f"the force falls to less than a tenth at {record.time[end]:.6g} s while the specimen is stretched on: "
-                f"taken for its break; the {len(record) - end} samples from there on were left out"
-            )
-            notes.append(f"{record.id}: {note}")
-            record = record.only(slice(end), (note,))  # noqa: PLW2901
-        records.append(record)
-    return (replace(campaign, records=tuple(records)), tuple(notes)) if notes else (campaign, ())
+    end = _end(record)
+    if end == len(record):
+        return record, ""
+    note = (
+        f"the force falls to less than a tenth at {record.time[end]:.6g} s while the specimen is stretched on: taken "
+        f"for its break; the {len(record) - end} samples from there on were left out"
+    )
+    return record.only(slice(end)), note
 
 
 def _end(record: Record) -> int:

@@ -1,0 +1,32 @@
+"""Records as they were tested: what a program or a machine added when they were written is taken away."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from probation.records.even_times import even_times
+from probation.records.until_break import until_break
+
+if TYPE_CHECKING:
+    from probation.records.campaign import Campaign
+
+
+def as_tested(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
+    """The campaign with records that end where their specimens broke, at times before rounding, and what was done.
+
+    Every record that was changed has a warning, too.
+
+    Parameters
+    ----------
+    campaign : Campaign
+    """
+    records, said = [], []
+    for record in campaign.records:
+        notes = []
+        for step in (until_break, even_times):
+            record, note = step(record)  # noqa: PLW2901
+            notes += [note] if note else []
+        said += [f"{record.id}: {note}" for note in notes]
+        records.append(replace(record, warnings=(*record.warnings, *notes)) if notes else record)
+    return (replace(campaign, records=tuple(records)), tuple(said)) if said else (campaign, ())
