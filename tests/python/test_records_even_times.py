@@ -27,8 +27,9 @@ def test_even_times_come_back_to_a_part_of_what_was_rounded(part, count, step, b
     true = begin + step / part * np.arange(count)
     rounded = np.round(true / step) * step
     found, note = even_times(record(rounded))
-    if np.ptp(np.diff(rounded)) < 0.5 * step:
-        assert note == ""
+    steps = np.round(np.diff(rounded) / step)
+    if min(np.count_nonzero(steps == steps.min()), np.count_nonzero(steps > steps.min())) < 5:
+        assert note == ""  # one longer distance may be a row that is missing
         return
     assert note.startswith(f"its times are rounded to {step:g} s; even steps of ")
     assert np.max(np.abs(found.time - true)) < 0.5 * step
@@ -38,7 +39,11 @@ def test_even_times_come_back_to_a_part_of_what_was_rounded(part, count, step, b
 def test_times_that_were_not_even_or_not_rounded_stay():
     rng = np.random.default_rng(1)
     uneven = np.round(np.append(0.0, np.cumsum(rng.uniform(0.2, 1.0, 200))), 1)
-    for time in (uneven, 0.37 * np.arange(200), np.cumsum(rng.uniform(0.2, 1.0, 200)), np.arange(200.0)):
+    a_row_less = np.delete(np.arange(201.0), 120)
+    stopped = np.append(np.arange(100.0), 99.5)
+    clock = 1.7e9 + np.append(0.0, np.arange(1.0, 200.0) + rng.uniform(-0.3, 0.3, 199))
+    free = np.cumsum(rng.uniform(0.2, 1.0, 200))
+    for time in (uneven, 0.37 * np.arange(200), free, np.arange(200.0), a_row_less, stopped, clock):
         found, note = even_times(record(time))
         assert note == ""
         assert found.time.tolist() == time.tolist()

@@ -43,6 +43,13 @@ def test_a_stress_that_pushes_while_the_specimen_is_stretched_has_the_wrong_sign
     assert unlike_others([records[0], both, records[2]]) == ()
 
 
+def test_a_slow_way_back_under_compression_has_no_wrong_sign():
+    time = np.concatenate([np.arange(26.0), 25.0 + np.arange(1.0, 201.0)])
+    strain = np.interp(time, [0.0, 25.0, 225.0], [0.0, 0.5, 0.1])
+    stress = np.where(time <= 25.0, 20.0, -20.0) * (time > 0.0)
+    assert unlike_others([Record("back", time, strain, stress)]) == ()
+
+
 def test_a_fit_and_a_diagnosis_say_so(records):
     one = replace(records[1], true_stress=1e-3 * records[1].true_stress)
     campaign = Campaign("kN", (records[0], one, records[2]), specimens=Specimens("none"))

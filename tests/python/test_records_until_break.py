@@ -1,5 +1,7 @@
 """What a machine writes after the specimen broke is no part of its record."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -38,6 +40,19 @@ def test_a_record_ends_where_its_specimen_broke(after, fall):
 
 def test_a_whole_record_stays():
     assert kept(pulled()) == (200, "")
+
+
+def test_noise_of_the_strain_hides_no_break():
+    """Three times what the strain moves by from sample to sample."""
+    for seed in range(20):
+        whole = pulled(count=2000, after=40, end=0.3)
+        noisy = whole.true_strain + 5e-4 * np.random.default_rng(seed).standard_normal(len(whole))
+        assert kept(replace(whole, true_strain=noisy))[0] == 2000
+
+
+def test_a_compressive_force_that_goes_back_to_none_is_no_break():
+    strain = 0.02 * np.sin(2.0 * np.pi * np.arange(401) / 40.0)
+    assert kept(Record("cycles", np.arange(401.0), strain, 1500.0 * strain))[0] == 401
 
 
 def test_a_force_that_is_let_go_or_relaxes_is_no_break():

@@ -31,6 +31,7 @@ from probation.errors import InputError
 from probation.law.schemes import DIFFERENTIABLE, Scheme, SchemeName, at_samples
 from probation.progress import shows_progress
 from probation.provenance import samples_sha256
+from probation.records.as_tested import as_tested
 from probation.records.campaign import Campaign
 from probation.settings.companion import COMPANION
 from probation.smoothing.excitation import excite_each
@@ -113,7 +114,7 @@ def calibrate_companion(
     if not isinstance(source, Campaign):
         raise InputError(f"source is {source!r}; expected a Campaign or a RateTable")
     advance = progress or (lambda done, total, what: None)
-    driven = []
+    source, driven = as_tested(source)[0], []
     for at, drive in enumerate(excite_each(source.identify, further=source.held_out)):
         driven.append(drive)
         advance(at + 1, len(source.identify), f"strain rate of {source.identify[at].id}")

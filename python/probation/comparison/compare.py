@@ -105,6 +105,7 @@ def compare(
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     together = pair(campaign, reference.campaign, pairs)
     campaign, changed = as_tested(campaign)
+    of_reference = as_tested(reference.campaign)[1]
     campaign, thinned = thin(campaign)
     kept = replace(campaign, records=tuple(replace(r, role="identify") for r in campaign.records if r.id in together))
     for record in kept.records:
@@ -175,7 +176,12 @@ def compare(
         },
         skipped=causes.skipped(skipping),
         scatter=causes.base.scatter,
-        warnings=(*changed, *thinned, *calibration.warnings),
+        warnings=(
+            *changed,
+            *(f"{reference.campaign.name}, {note}" for note in of_reference),
+            *thinned,
+            *calibration.warnings,
+        ),
         calibration=calibration,
         leaves_a_gap=causes.verdict == "unexplained",
     )
@@ -185,7 +191,7 @@ def _as_specimens_may(base: BaseFit, records: Mapping[str, Closure]) -> str:
     """How far apart the campaigns are before specimens may differ, as a clause; empty where that is no more."""
     raw = base.model.residual(base.parameters)
     apart = {view.id: float(np.sqrt(np.mean(raw[rows] ** 2))) for view, rows in base.model.parts}
-    farthest = max(apart, key=lambda name: apart[name])
+    farthest = max(apart, key=lambda name: apart[name] / max(records[name].before_MPa, 1e-300))
     if apart[farthest] <= COMPARISON.taken_for_specimens * records[farthest].before_MPa:
         return ""
     largest = float(np.max(np.abs(base.view(farthest).data)))

@@ -399,8 +399,8 @@ def _not_followed(visible_effects: Sequence[Effect], followed: Sequence[Effect])
         return ()
     text = (
         f"the law cannot follow {len(others)} of the {len(visible_effects)} effects that these records could show "
-        f"({', '.join(others)}): they count as unknown, and what one of them does may look like another cause; give "
-        "the law more capabilities"
+        f"({', '.join(others)}): none of them was considered, and what one of them does may look like another cause; "
+        "give the law more capabilities"
     )
     return (text,)
 

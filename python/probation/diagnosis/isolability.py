@@ -11,6 +11,7 @@ from probation.identify.base import base_fit
 from probation.identify.fit import plain_fit
 from probation.parallel import at_once, without_blas_threads
 from probation.progress import Part
+from probation.records.as_tested import as_tested
 from probation.results.data import Stored
 from probation.results.rendering import Result
 
@@ -82,6 +83,7 @@ def campaign_isolability(
     """
     advance = progress or (lambda part: None)
     advance(Part(0.0, "fitting the law"))
+    campaign, _ = as_tested(campaign)
     base = base_fit(campaign, plain_fit(campaign, scheme, hold))
     advance(Part(0.3, "comparing effects"))
     effect_isolability = isolability(

@@ -54,6 +54,8 @@ def sudden_instants(
             jump[max(place - 2 * window, 0) : max(place + 2 * window, 0)] = 0.0
         for _ in range(2):
             best = int(np.argmax(jump))
+            if jump[best] == 0.0:
+                break
             instant = view.sampled(view.elapsed)[best + window] / view.duration
             instants.append(float(np.clip(instant, 0.0, 1.0)))
             jump[max(best - 2 * window, 0) : best + 2 * window] = 0.0

@@ -13,6 +13,7 @@ from probation.effects.cause import Cause
 from probation.errors import InputError
 from probation.inference.elastic_frame import ElasticFrame
 from probation.inference.own_force import ROUGHLY, SETTLED, SLOPE, OwnForce
+from probation.inference.unsolvable import UNSOLVABLE
 from probation.law.modification import ONCE, Modification
 from probation.noise.moving_parabola import moving_parabola
 from probation.noise.outliers import without_outliers
@@ -229,13 +230,22 @@ class CampaignModel:
         return frozenset() if modification is None else modification.changed - self.law.capabilities
 
     def followed(self, effects: Iterable[Effect]) -> tuple[Effect, ...]:
-        """The effects with those of their forms that the law can follow; without those that have none."""
+        """The effects with those of their forms that the law can follow; without those that have none.
+
+        A form whose own function fails is kept: where it is tried it is listed.
+        """
         kept = []
         for effect in effects:
-            forms = tuple(form for form in effect.forms if not self.missing_capabilities(Cause(effect, form)))
+            forms = tuple(form for form in effect.forms if self._can_follow(Cause(effect, form)))
             if forms:
                 kept.append(effect if len(forms) == len(effect.forms) else replace(effect, forms=forms))
         return tuple(kept)
+
+    def _can_follow(self, cause: Cause) -> bool:
+        try:
+            return not self.missing_capabilities(cause)
+        except UNSOLVABLE:
+            return True
 
     def clashes(self, cause: Cause) -> bool:
         """Whether a cause changes what a law can change once only, and one of the model's does."""

@@ -20,6 +20,9 @@ COARSE = 0.05
 ROUNDING = 1e-6
 """Part of a step that a multiple of it may be off."""
 
+SEVERAL = 5
+"""Distances of samples that are a step longer than others, and shorter, at least: one may be a row that is missing."""
+
 
 def even_times(record: Record) -> tuple[Record, str]:
     """The record with its times as they were before they were rounded, and a sentence on that.
@@ -31,9 +34,12 @@ def even_times(record: Record) -> tuple[Record, str]:
     distance = np.diff(time)
     usual = float(np.median(distance)) * (1.0 + ROUNDING)
     coarse = [step for step in STEPS if COARSE * usual <= step <= usual and _multiples(time, step)]
-    if not coarse or float(np.ptp(distance)) < 0.5 * coarse[0]:
+    if not coarse:
         return record, ""
     step = coarse[0]
+    steps = np.round(distance / step)
+    if min(np.count_nonzero(steps == steps.min()), np.count_nonzero(steps > steps.min())) < SEVERAL:
+        return record, ""
     even = _even(time, step)
     if even is None:
         return record, ""
@@ -45,7 +51,8 @@ def even_times(record: Record) -> tuple[Record, str]:
 
 
 def _multiples(time: FloatArray, step: float) -> bool:
-    return bool(np.max(np.abs(time / step - np.round(time / step))) < ROUNDING * max(np.max(np.abs(time)) / step, 1.0))
+    count = time / step
+    return bool(np.max(np.abs(count - np.round(count))) < ROUNDING + 1e-14 * np.max(np.abs(count)))
 
 
 def _even(time: FloatArray, step: float) -> FloatArray | None:

@@ -24,10 +24,11 @@ def unlike_others(records: Sequence[Record]) -> tuple[str, ...]:
     records : sequence of Record
         Of one campaign.
     """
-    largest = [max(float(np.max(np.abs(record.true_stress))), 1e-300) for record in records]
+    records = [record for record in records if record.true_stress.any()]
+    largest = [float(np.max(np.abs(record.true_stress))) for record in records]
     notes = []
     for index, record in enumerate(records):
-        if np.sum(record.true_stress * record.true_strain) < 0.0:
+        if np.trapezoid(record.true_stress, record.true_strain) < 0.0:  # no specimen gives work back at large
             notes.append(
                 f"{record.id}: its stress and its strain have opposite signs: if tension is positive in both, one of "
                 "them has the wrong sign"

@@ -20,6 +20,7 @@ from probation.inference.base_fit import BaseFit
 from probation.inference.candidate import WhitenedColumns
 from probation.inference.screen import screen
 from probation.inference.thinning import thin
+from probation.records.as_tested import as_tested
 
 Scored: TypeAlias = "tuple[str, float, tuple[str, ...] | None]"
 
@@ -55,7 +56,7 @@ def survey(folder: Path) -> Survey:
     InputError
         If the campaign cannot be read.
     """
-    campaign, _ = thin(probation.Campaign.load(folder))
+    campaign, _ = thin(as_tested(probation.Campaign.load(folder))[0])
     catalogue = effects()
     base = base_fit(campaign, plain_fit(campaign)).screened(catalogue)
     gap = with_sharp(GapTester(base.whitened, base.smooth_columns.by_effect())(), base.whitened).rejected
