@@ -173,7 +173,7 @@ def test_the_function_in_the_figure_is_the_one_that_was_put_in():
 @pytest.fixture(scope="module")
 def undiagnosed():
     """Nothing in what is considered explains it."""
-    return diagnose(campaign(CYCLES, softened), effects=["force_offset"], threads=1)
+    return diagnose(campaign(CYCLES, softened), effects=["slow_process"], threads=1)
 
 
 def test_a_diagnosis_without_an_explanation_describes_what_is_left(undiagnosed, tmp_path):
