@@ -134,12 +134,13 @@ for parameter in holds.base:
 
 diagnosis = probation.diagnose(damaged, law=law)
 print(diagnosis.headline)
-# > Damage explains the gap: with it the misfit falls from 2.89 to 0.0499 MPa
+# > Damage may explain the gap: with it the misfit falls from 2.89 to 0.0499 MPa
 residual_map(diagnosis)
 
 # %%
-# Only effects that the law can follow were compared with the faults of the rig. The headline's
-# probability is that damage is *part* of the explanation, alone or with another; a bar is one
+# Only effects that the law can follow were compared with the faults of the rig. This law
+# follows one field, so most effects of the material were not tried: they count as unknown, and
+# the headline says "may". Of a law that follows more, more can be said. A bar is one
 # explanation.
 
 probability_figure(diagnosis)

@@ -137,7 +137,7 @@ def test_slack_of_a_quarter_of_the_travel_and_a_soft_frame_are_found_jointly():
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
     # With shares of their own, or without them where a second form of slack takes a part.
     share = r"(?: \(\d+ %(?: of the gap)?\))?"
-    both = re.match(f"(.+?){share} and (.+?){share} explain the gap", found.headline).groups()
+    both = re.match(f"(.+?){share} and (.+?){share} (?:may )?explain the gap", found.headline).groups()
     assert {each.lower() for each in both} == {"compliance of the machine", "offset of the strain"}
     assert "cannot" not in found.headline
     assert "only jointly" not in found.headline
@@ -208,7 +208,7 @@ def test_behind_a_soft_frame_damage_is_found_and_the_headline_names_both(damage_
     found = damage_behind_a_soft_frame
     assert found.verdict == "explained"
     assert found.best.effects == ("damage", "machine_compliance")
-    assert found.headline.startswith("Compliance of the machine and damage explain the gap")
+    assert re.match("Compliance of the machine and damage (may )?explain the gap", found.headline)
     assert found.shrink.identify.after_MPa < 1.1 * NOISE
 
 

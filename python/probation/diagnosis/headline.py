@@ -218,8 +218,10 @@ def _place(records: Sequence[str], count: int) -> str:
 
 
 def _explains(best: Explanation, parts: Attribution, named: str, fall: str, rivals: str, *, alone: bool) -> str:
-    """Of an explanation that leaves nothing, `alone` if no other one does."""
+    """Of an explanation that leaves nothing, `alone` if no other one does; else no more is said than that it may."""
     pronoun, verb = ("it", "explains") if len(parts.named) == 1 else ("them", "explain")
+    if not alone:
+        verb = "may explain"
     sentence = f"{named} {verb} the gap: with {pronoun} {fall}"
     if not {*best.effects} <= {*parts.named, *parts.undivided}:
         sentence += adds_little()
