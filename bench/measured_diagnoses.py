@@ -17,7 +17,6 @@ from probation import Campaign, diagnose
 
 DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 TWO = ["rate_dependent_relaxation", "rate_dependent_hardening"]
-KEPT = ("time", "true_strain", "true_stress")
 EVERY = 10
 LEADING = 0.05
 
@@ -48,8 +47,7 @@ CASES = {"etfe": etfe, "vhb-loading": lambda: vhb(True), "vhb": lambda: vhb(Fals
 
 def _thinned(record, held_out, loading):
     part = slice(0, int(np.argmax(record.true_strain)) + 1 if loading else None, EVERY)
-    kept = {name: getattr(record, name)[part] for name in KEPT}
-    return replace(record, role="held-out" if held_out else "identify", **kept)
+    return replace(record.only(part), role="held-out" if held_out else "identify")
 
 
 def told(found):

@@ -21,16 +21,7 @@ HARDENING = "rate_dependent_hardening"
 
 
 def thinned(record, every, samples=None, role="identify"):
-    part = slice(0, samples, every)
-    return replace(
-        record,
-        role=role,
-        time=record.time[part],
-        true_strain=record.true_strain[part],
-        true_stress=record.true_stress[part],
-        strain_rate=None if record.strain_rate is None else record.strain_rate[part],
-        transverse_strain=None if record.transverse_strain is None else record.transverse_strain[part],
-    )
+    return replace(record.only(slice(0, samples, every)), role=role)
 
 
 def test_of_known_effects_rate_dependent_relaxation_comes_first_in_etfe_and_none_is_certain():

@@ -62,7 +62,7 @@ def test_effects_that_a_law_does_not_understand_are_not_considered():
 
 
 def test_effects_that_a_law_does_not_understand_count_as_unknown_where_all_records_miss():
-    """A second Maxwell element beside the bar's: with other times alone no cause may be sure of it."""
+    """A second Maxwell element in parallel with the bar's: with other times alone no cause may be sure of it."""
 
     def second(name, time, strain, stress):
         rate = strain[-1] / time[-1]

@@ -23,7 +23,7 @@ def record(time):
     st.sampled_from([0.0, 12.0]),
 )
 def test_even_times_come_back_to_a_part_of_what_was_rounded(part, count, step, begin):
-    """Whatever the distance of samples that a step is coarse beside: to half a step over the whole record."""
+    """Whatever the sampling interval that a step is coarse for: to half a step over the whole record."""
     true = begin + step / part * np.arange(count)
     rounded = np.round(true / step) * step
     found, note = even_times(record(rounded))
@@ -50,7 +50,7 @@ def test_times_that_were_not_even_or_not_rounded_stay():
 
 
 def test_rounded_times_are_no_gap_of_specimens_that_differ():
-    """To 0.1 s, a third of the distance of samples: it was rate-dependent relaxation (86 %)."""
+    """To 0.1 s, a third of the sampling interval: it was rate-dependent relaxation (86 %)."""
     rng = np.random.default_rng(42)
     records = []
     for index, rate in enumerate((8e-4, 2.5e-3, 8e-3)):

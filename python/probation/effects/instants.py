@@ -41,7 +41,7 @@ def likely_instants(views: Sequence[RecordView], residuals: Sequence[FloatArray]
 
 
 def sudden_instants(
-    views: Sequence[RecordView], residuals: Sequence[FloatArray] | None, *, beside_jumps: bool = True
+    views: Sequence[RecordView], residuals: Sequence[FloatArray] | None, *, near_jumps: bool = True
 ) -> list[float]:
     """The two instants of each record where residuals jump most; also, if wanted, where the strain's rate does."""
     instants = []
@@ -49,7 +49,7 @@ def sudden_instants(
         window = max(len(residual) // 100, 2)
         means = np.convolve(residual, np.ones(window) / window, mode="valid")
         jump = np.abs(means[window:] - means[:-window])
-        places = [] if beside_jumps else [corner // view.stride - window for corner in view.jumps]
+        places = [] if near_jumps else [corner // view.stride - window for corner in view.jumps]
         for place in places:
             jump[max(place - 2 * window, 0) : max(place + 2 * window, 0)] = 0.0
         for _ in range(2):

@@ -398,7 +398,7 @@ def _turns(
 def with_joint_noise(base: BaseFit, explained: Refit) -> BaseFit:
     """The same with the noise as an explanation leaves it: a gap makes slow noise look larger than it is.
 
-    As it is, where the law cannot be solved a little beside the explanation.
+    As it is, where the law cannot be solved near the explanation.
 
     Parameters
     ----------

@@ -399,13 +399,13 @@ class CampaignModel:
             specimen_stress = self.specimen(view, base, here).stress
         return _as_recorded(view, here, specimen_stress)
 
-    def moved(self, view: RecordView, beside: RecordView, parameters: FloatArray) -> FloatArray:
-        """What is added to the recorded stress where the view is one a little beside it; (n_samples,) [MPa]."""
+    def moved(self, view: RecordView, to: RecordView, parameters: FloatArray) -> FloatArray:
+        """Change of the recorded stress from a view to one that is nearly the same; (n_samples,) [MPa]."""
         base, causes = self.split(parameters)
         here = _touching(causes, view)
         specimen = self.specimen(view, base, here)
-        other = self.specimen(beside, base, here, near=specimen.own_force)
-        return view.sampled(_as_recorded(beside, here, other.stress) - _as_recorded(view, here, specimen.stress))
+        other = self.specimen(to, base, here, near=specimen.own_force)
+        return view.sampled(_as_recorded(to, here, other.stress) - _as_recorded(view, here, specimen.stress))
 
     def at_rest(self, view: RecordView, base: FloatArray, causes: CauseValues) -> tuple[Specimen, FloatArray]:
         """The specimen by the model as it is, and the recorded stress, (n,) [MPa]: where `with_one_more` begins."""

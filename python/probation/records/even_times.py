@@ -15,29 +15,29 @@ STEPS = tuple(float(f"{digit}e{power}") for power in range(1, -7, -1) for digit 
 """Steps that times are rounded to [s], coarsest first; a tenth of a minute is one of them."""
 
 COARSE = 0.05
-"""Part of the usual distance of samples from which on such a step matters."""
+"""Part of the median sampling interval from which on such a step matters."""
 
 ROUNDING = 1e-6
 """Part of a step that a multiple of it may be off."""
 
 SEVERAL = 5
-"""Distances of samples that are a step longer than others, and shorter, at least: one may be a row that is missing."""
+"""Sampling intervals that are a step longer than others, and shorter, at least: one may be a row that is missing."""
 
 
 def even_times(record: Record) -> tuple[Record, str]:
     """The record with its times as they were before they were rounded, and a sentence on that.
 
-    As it is, and no words, unless all times are multiples of a step that is coarse beside the distance of samples, and
-    even times, rounded to that step, are these.
+    As it is, and no words, unless all times are multiples of a step that is coarse for the sampling interval, and even
+    times, rounded to that step, are these.
     """
     time = record.time
-    distance = np.diff(time)
-    usual = float(np.median(distance)) * (1.0 + ROUNDING)
+    intervals = np.diff(time)
+    usual = float(np.median(intervals)) * (1.0 + ROUNDING)
     coarse = [step for step in STEPS if COARSE * usual <= step <= usual and _multiples(time, step)]
     if not coarse:
         return record, ""
     step = coarse[0]
-    steps = np.round(distance / step)
+    steps = np.round(intervals / step)
     if min(np.count_nonzero(steps == steps.min()), np.count_nonzero(steps > steps.min())) < SEVERAL:
         return record, ""
     even = _even(time, step)

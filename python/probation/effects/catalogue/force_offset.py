@@ -60,7 +60,7 @@ def _durations(views: Sequence[RecordView], residuals: Sequence[FloatArray] | No
 def _starts(views: Sequence[RecordView], residuals: Sequence[FloatArray] | None) -> list[tuple[float, ...]]:
     """Where the strain is taken back, what the material does at a reversal would be taken for a jump."""
     if unloads(views):
-        return [(instant,) for instant in sudden_instants(views, residuals, beside_jumps=False)]
+        return [(instant,) for instant in sudden_instants(views, residuals, near_jumps=False)]
     return [(instant,) for instant in likely_instants(views, residuals)]
 
 
