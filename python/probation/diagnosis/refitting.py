@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import ChainMap
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
@@ -37,6 +38,10 @@ if TYPE_CHECKING:
     """A model, and where its refit begins."""
 
 
+_PARTS = 2
+"""In which what is wanted of a record is worked out: of three records two processes would have two and one."""
+
+
 class _Begun(NamedTuple):
     """Causes to be refitted, as data: another process knows them by their names."""
 
@@ -55,7 +60,7 @@ class _Found(NamedTuple):
 
 
 class _Screened(NamedTuple):
-    """Causes to be added to a model, as one record shows them, as data."""
+    """Some of the causes to be added to a model, as one record shows them, as data."""
 
     keys: tuple[Key, ...]
     parameters: FloatArray
@@ -124,24 +129,26 @@ class Refitting:
         ]
 
     def candidates(self, extended: Sequence[Extended]) -> list[list[Candidate]]:
-        """What may be added to each model, best first; all records of all models side by side."""
+        """What may be added to each model, best first; all records of all models, in parts, side by side."""
         screens = [each.screen() for each in extended]
         asked = [
             _Screened(
                 _keys_of(each.model),
                 each.parameters,
                 index,
-                tuple((cause_key(cause), values) for cause, values in screen.wanted_of(index)),
-                each.directions[part],
+                tuple((cause_key(cause), values) for cause, values in screen.wanted_of(index)[first::_PARTS]),
+                each.directions[rows],
             )
             for each, screen in zip(extended, screens, strict=True)
-            for index, part in enumerate(self.base.whitener.slices)
+            for index, rows in enumerate(self.base.whitener.slices)
+            for first in range(_PARTS)
         ]
         answers = iter(self._copies.results(asked))
-        return [
-            each.candidates(screen.found([cast("Answers", next(answers)) for _ in screen.views]))
-            for each, screen in zip(extended, screens, strict=True)
-        ]
+        found: list[list[Candidate]] = []
+        for each, screen in zip(extended, screens, strict=True):
+            by_record = [ChainMap(*(cast("Answers", next(answers)) for _ in range(_PARTS))) for _ in screen.views]
+            found.append(each.candidates(screen.found(by_record)))
+        return found
 
     def evidences(self, fits: Sequence[Refit], *, unknown: bool = False) -> list[Evidence | str]:
         """The evidence of each refit, jointly with an unknown effect, too, where that is asked for; why, if none."""
@@ -183,12 +190,13 @@ class Refitting:
         counts only along what they do not explain. So specimens that are alike come first there. Where one of them is
         then far from what is usual, that is the end; else the refit goes on from there, unless its next steps leave
         more and a specimen still deviates unusually. A search that explains less than no effect does goes on, too: a
-        fault in one record pulls the law of specimens that are alike.
+        fault in one record pulls the law of specimens that are alike. Not where one is far without an effect as well:
+        the law itself found no way on from there.
         """
         problem = self.base.problem.with_model(RememberingModel(model))
         if isinstance(start, Refit):
             start = replace(start, problem=problem)
-        if not self.base.scatter.any:
+        if not self.base.scatter.any or steps == 0:
             return refit(problem, start, most_steps=steps)
         try:
             return self._refit(problem, start, steps)
@@ -205,14 +213,13 @@ class Refitting:
         promised = not weak and self._promises_usual(problem, first, white, slopes)
         if weak or promised:
             fit = refit(problem, start, most_steps=steps)
-            if self._furthest(fit) <= 1.0 and (weak or self._explains(fit)):
-                return fit
-            if weak and not specimens_hold_the_gap(model, noises, first, fit.parameters):
+            if self._may_be(fit, first) if weak else self._usual(fit) and self._explains(fit):
                 return fit
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
-        if weak or not self._explains(there) or self._furthest(there) <= SEARCH.farthest_specimen:
+        far = self._furthest(model, alike) > SEARCH.farthest_specimen
+        if weak or not (far and (self._explains(there) or self._far_without_effect)):
             there = self._from_alike(there, alike, steps, differentiable=differentiable)
         return there
 
@@ -241,22 +248,36 @@ class Refitting:
     def _from_alike(self, there: Refit, alike: FloatArray, steps: int, *, differentiable: bool) -> Refit:
         """From where specimens that are alike ended; there itself, where specimens that differ would hold the gap."""
         problem, model, noises = there.problem, there.model, self.base.alike.noises
-        begun = reached(problem, there, most_steps=min(steps, SEARCH.steps_apart), differentiable=differentiable)
-        near = refit(problem, begun.parameters, most_steps=0)
-        held = specimens_hold_the_gap(model, noises, alike, near.parameters)
-        if not held or self._furthest(near) <= SEARCH.nearly_usual:
-            fit = near if begun.steps < SEARCH.steps_apart else refit(problem, near, most_steps=steps)
-            if self._furthest(fit) <= 1.0 or not specimens_hold_the_gap(model, noises, alike, fit.parameters):
-                return fit
+        near, taken = reached(
+            problem, there, most_steps=min(steps, SEARCH.steps_apart), differentiable=differentiable
+        )
+        held = specimens_hold_the_gap(model, noises, alike, near)
+        goes_on = not held or self._furthest(model, near) <= SEARCH.nearly_usual
+        if not goes_on and self._explains(there):
+            return there
+        fit = refit(problem, near, most_steps=steps if taken == SEARCH.steps_apart else 0)
+        if goes_on and self._may_be(fit, alike):
+            return fit
         if self._explains(there):
             return there
-        fit = refit(problem, near, most_steps=steps)
-        held = specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters)
-        return there if held else fit
+        return there if specimens_hold_the_gap(model, noises, self._without_effect(model), fit.parameters) else fit
 
-    def _furthest(self, fit: Refit) -> float:
-        """How far the specimens' deviations at a refit are from what specimens may do: at most 1 where they may."""
-        return furthest_specimen(self.base.residual_of(fit), self.base.whitened.noises)
+    def _may_be(self, fit: Refit, before: FloatArray) -> bool:
+        """Whether no specimen deviates unusually, or none holds the gap as it was before."""
+        return self._usual(fit) or not specimens_hold_the_gap(fit.model, self.base.alike.noises, before, fit.parameters)
+
+    def _usual(self, fit: Refit) -> bool:
+        return self._furthest(fit.model, fit.parameters) <= 1.0
+
+    def _furthest(self, model: CampaignModel, parameters: FloatArray) -> float:
+        """How far the specimens' deviations are from what specimens may do: at most 1 where they may."""
+        left = self.base.without_outliers(model, model.residual(parameters))
+        return furthest_specimen(left, self.base.whitened.noises)
+
+    @cached_property
+    def _far_without_effect(self) -> bool:
+        """Whether a specimen is far from what is usual where the law was fitted without an effect."""
+        return self._furthest(self.base.model, self.base.refit.parameters) > SEARCH.farthest_specimen
 
     def _without_effect(self, model: CampaignModel) -> FloatArray:
         """The base fit as parameters of a model whose causes are absent."""

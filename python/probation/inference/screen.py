@@ -12,7 +12,7 @@ from probation.inference.unsolvable import UNSOLVABLE
 from probation.parallel import in_parallel
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.effect import Effect, Form
@@ -223,7 +223,7 @@ class Screen:
                 wanted.setdefault(_key(cause, values), (cause, values))
         return list(wanted.values())
 
-    def found(self, answers: Sequence[Answers]) -> list[Onset]:
+    def found(self, answers: Sequence[Mapping[_Key, FloatArray | Exception]]) -> list[Onset]:
         """The answers of all records, put together, in the order of the effects."""
         answers_of = dict(zip(self.views, answers, strict=True))
         failed, found = list(self.failed), []

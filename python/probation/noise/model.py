@@ -184,6 +184,12 @@ class NoiseModel:
         """The same without deviations of the specimen."""
         return replace(self, specimen=None)
 
+    @cached_property
+    def white_specimen(self) -> FloatArray:
+        """What deviations of the specimen do, in coordinates in which the rest of the noise is white; shape (n, k)."""
+        columns = np.zeros((len(self), 0)) if self.specimen is None else self.specimen
+        return self.alike.whiten(columns)
+
     @property
     def drifting(self) -> NoiseModel:
         """The same with all of its drift along any direction, that of effects included."""

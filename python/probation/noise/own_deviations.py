@@ -82,13 +82,11 @@ def deviations_of(
     for members in specimens_of(noises):
         normal, pull = np.zeros(()), np.zeros(())
         for index in members:
-            noise = noises[index].alike
-            columns = noises[index].specimen
-            if columns is None or not columns.shape[1]:
+            white = noises[index].white_specimen
+            if not white.shape[1]:
                 continue
-            white = noise.whiten(np.column_stack([columns, residuals[index]]))
-            normal = normal + white[:, :-1].T @ white[:, :-1]
-            pull = pull + white[:, :-1].T @ white[:, -1]
+            normal = normal + white.T @ white
+            pull = pull + white.T @ noises[index].alike.whiten(residuals[index])
         if normal.ndim:
             yield members, np.asarray(np.linalg.solve(np.eye(len(normal)) + normal, pull))
 
