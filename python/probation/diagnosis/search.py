@@ -635,14 +635,16 @@ class Search:
     def _not_above_their_parts(self, refits: list[Refit], steps: int = MOST_STEPS) -> list[Refit]:
         """Refits that leave more than a part of their causes does by itself, begun anew from there: so many steps."""
         known = [*(hypothesis.refit for hypothesis in self.found), *refits]
-        for count in sorted({len(fit.model.causes) for fit in refits}):
-            if self.budget.spent():
-                break
+        waiting = {fit.keys for fit in refits}
+        while waiting and not self.budget.spent():
+            alone = {keys for keys in waiting if len(keys) == 1}
+            ready = alone or {keys for keys in waiting if not any(part < keys for part in waiting)}
+            waiting -= ready
             least = least_of_each(known)
             jobs: list[tuple[CampaignModel, FloatArray]] = []
             before: list[Refit] = []
             for whole in refits:
-                if len(whole.model.causes) != count:
+                if whole.keys not in ready:
                     continue
                 part = min(
                     (other for keys, other in least.items() if keys < whole.keys), key=lambda other: other.chi_square
@@ -651,7 +653,7 @@ class Search:
                     jobs.append((whole.model, with_others_absent(whole, part)))
                     before.append(whole)
             # A single effect that leaves more than none has lost the race: none of it leaves as much as none.
-            lower = {id(fit.model): fit for fit in self._solved(jobs, steps if count > 1 else 0)}
+            lower = {id(fit.model): fit for fit in self._solved(jobs, 0 if alone else steps)}
             better = {
                 id(fit): lower[id(fit.model)]
                 for fit in before
