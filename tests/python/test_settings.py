@@ -120,6 +120,7 @@ NUMERICAL = {
     "calibration/regression.py": {"_MOST_ROUNDS", "FINAL_STEP"},
     "diagnosis/free_function.py": {"POINTS", "SMALLEST_STRESS"},
     "diagnosis/headline.py": {"MOST_RIVALS"},
+    "diagnosis/refitting.py": {"_PARTS"},
     "diagnosis/search.py": {"_USUAL"},
     "comparison/measured_law.py": {"ROUNDING", "TINY"},
     "field/block.py": {"SEED"},

@@ -248,9 +248,7 @@ class Refitting:
     def _from_alike(self, there: Refit, alike: FloatArray, steps: int, *, differentiable: bool) -> Refit:
         """From where specimens that are alike ended; there itself, where specimens that differ would hold the gap."""
         problem, model, noises = there.problem, there.model, self.base.alike.noises
-        near, taken = reached(
-            problem, there, most_steps=min(steps, SEARCH.steps_apart), differentiable=differentiable
-        )
+        near, taken = reached(problem, there, most_steps=min(steps, SEARCH.steps_apart), differentiable=differentiable)
         held = specimens_hold_the_gap(model, noises, alike, near)
         goes_on = not held or self._furthest(model, near) <= SEARCH.nearly_usual
         if not goes_on and self._explains(there):
