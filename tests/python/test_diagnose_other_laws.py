@@ -68,11 +68,12 @@ def test_effects_that_a_law_does_not_understand_count_as_unknown_where_all_recor
         rate = strain[-1] / time[-1]
         return stress + 60.0 * 90.0 * rate * -np.expm1(-time / 90.0)
 
-    found = probation.diagnose(campaign(second), law=maxwell_bar(), design=False)
+    found = probation.diagnose(campaign(second), law=maxwell_bar())
     assert found.best.probability < 0.75
     assert ("unknown",) in found.answer_set
     [said] = [warning for warning in found.warnings if "cannot follow" in warning]
     assert "a slow process" in said
+    assert "slow_process" in dict(found.isolability.left_out)
 
 
 def test_no_form_is_tried_that_a_law_does_not_understand():

@@ -100,6 +100,11 @@ class Causes:
             return ()
         return tuple(effect.name for effect in self.considered if effect.name not in self.cut.ended)
 
+    def not_among(self, effects: Sequence[Effect]) -> tuple[Effect, ...]:
+        """Which of the effects were not considered, since the law cannot follow them."""
+        considered = {effect.name for effect in self.considered}
+        return tuple(effect for effect in effects if effect.name not in considered)
+
     def with_untried(self, weighed: Sequence[Weighed]) -> list[Weighed]:
         """Explanations weighed against the effects that were not refitted to the end."""
         return with_untried(weighed, self.considered, self.untried, self.found[0])

@@ -172,7 +172,7 @@ def diagnose(
         progress=lambda part: done(0.15 + 0.55 * part, "trying causes"),
         calibration=calibration,
     )
-    beyond_the_law = _not_followed(considered, causes.considered)
+    beyond_the_law = causes.not_among(considered)
     base, considered, hypotheses = causes.base, causes.considered, causes.found
     if causes.weighed[0].effects == (UNKNOWN,) and not case.predicted_only:
         where = locate(place_left_out(base.whitened, where.located), seed=seed)
@@ -192,7 +192,7 @@ def diagnose(
     acts = regions_of(best.hypothesis, base, p_value) if best.hypothesis.causes and gap.exists else ()
     done(0.75, "choosing the next test")
     following, apart = (
-        _designed(base, considered, causes, chosen, left, skipping, deadline, workers, seed, done)
+        _designed(base, (*considered, *beyond_the_law), causes, chosen, left, skipping, deadline, workers, seed, done)
         if design
         else ((), None)
     )
@@ -251,7 +251,7 @@ def diagnose(
             *thinned,
             *unlike_others(campaign.records),
             *_warnings(base, gap.test.robust),
-            *beyond_the_law,
+            *_not_followed(beyond_the_law, of=len(considered) + len(beyond_the_law)),
             *calibration.warnings,
         ),
         data_sha256=campaign.data_hash,
@@ -391,14 +391,13 @@ def _with_predictions(base: BaseFit) -> Whitened:
     return Whitened.of([*base.whitened.records, *records], [*base.whitened.noises, *noises])
 
 
-def _not_followed(visible_effects: Sequence[Effect], followed: Sequence[Effect]) -> tuple[str, ...]:
-    """One sentence where the law cannot follow effects that the records could show; empty where it follows all."""
-    names = {effect.name for effect in followed}
-    others = [effect.title for effect in visible_effects if effect.name not in names]
-    if not others:
+def _not_followed(beyond_the_law: Sequence[Effect], of: int) -> tuple[str, ...]:
+    """One sentence where the law cannot follow effects, of so many that the records could show; else empty."""
+    if not beyond_the_law:
         return ()
+    others = [effect.title for effect in beyond_the_law]
     text = (
-        f"the law cannot follow {len(others)} of the {len(visible_effects)} effects that these records could show "
+        f"the law cannot follow {len(others)} of the {of} effects that these records could show "
         f"({', '.join(others)}): none of them was considered, and what one of them does may look like another cause; "
         "give the law more capabilities"
     )
