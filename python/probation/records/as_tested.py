@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 from probation.records.even_times import even_times
 from probation.records.until_break import until_break
+from probation.records.until_strain_stops import until_strain_stops
 
 if TYPE_CHECKING:
     from probation.records.campaign import Campaign
 
 
 def as_tested(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
-    """The campaign with records that end where their specimens broke, at times before rounding, and what was done.
+    """The campaign with records that end where specimen or extensometer did, at times before rounding; what was done.
 
     Every record that was changed has a warning, too.
 
@@ -24,7 +25,7 @@ def as_tested(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
     records, said = [], []
     for record in campaign.records:
         notes = []
-        for step in (until_break, even_times):
+        for step in (until_break, until_strain_stops, even_times):
             record, note = step(record)  # noqa: PLW2901
             notes += [note] if note else []
         said += [f"{record.id}: {note}" for note in notes]
