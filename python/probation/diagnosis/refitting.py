@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import ChainMap
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
@@ -190,8 +190,7 @@ class Refitting:
         counts only along what they do not explain. So specimens that are alike come first there. Where one of them is
         then far from what is usual, that is the end; else the refit goes on from there, unless its next steps leave
         more and a specimen still deviates unusually. A search that explains less than no effect does goes on, too: a
-        fault in one record pulls the law of specimens that are alike. Not where one is far without an effect as well:
-        the law itself found no way on from there.
+        fault in one record pulls the law of specimens that are alike.
         """
         problem = self.base.problem.with_model(RememberingModel(model))
         if isinstance(start, Refit):
@@ -218,8 +217,7 @@ class Refitting:
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
-        far = self._furthest(model, alike) > SEARCH.farthest_specimen
-        if weak or not (far and (self._explains(there) or self._far_without_effect)):
+        if weak or not self._explains(there) or self._furthest(model, alike) <= SEARCH.farthest_specimen:
             there = self._from_alike(there, alike, steps, differentiable=differentiable)
         return there
 
@@ -271,11 +269,6 @@ class Refitting:
         """How far the specimens' deviations are from what specimens may do: at most 1 where they may."""
         left = self.base.without_outliers(model, model.residual(parameters))
         return furthest_specimen(left, self.base.whitened.noises)
-
-    @cached_property
-    def _far_without_effect(self) -> bool:
-        """Whether a specimen is far from what is usual where the law was fitted without an effect."""
-        return self._furthest(self.base.model, self.base.refit.parameters) > SEARCH.farthest_specimen
 
     def _without_effect(self, model: CampaignModel) -> FloatArray:
         """The base fit as parameters of a model whose causes are absent."""

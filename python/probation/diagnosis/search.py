@@ -378,8 +378,7 @@ class Search:
         limit = self._limit(refits)
         near = {id(fit) for fit in refits if fit.chi_square <= limit}
         if self._gap_left(refits) > SEARCH.strong_gap:
-            none = self.base.refit.chi_square
-            close = [fit for fit in refits if id(fit) in near and fit.chi_square < none]
+            close = [fit for fit in refits if id(fit) in near]
             scores = {id(fit): _score(known) for fit, known in zip(close, self._evidences(close), strict=True)}
             count = len(self.base.whitened)
             best = max((score for score in scores.values() if np.isfinite(score)), default=0.0)

@@ -255,6 +255,6 @@ def _solved(normal: FloatArray, gradient: FloatArray, damping: float) -> FloatAr
     size = np.sqrt(np.maximum(np.diag(normal), 1e-300))
     scaled = normal / np.outer(size, size)
     scaled[np.diag_indices_from(scaled)] += damping
-    if damping > 0.0:
+    if damping >= LEAST_DAMPING and np.isfinite(scaled).all():
         return np.asarray(np.linalg.solve(scaled, gradient / size) / size)
     return np.asarray(np.linalg.lstsq(scaled, gradient / size, rcond=1e-14)[0] / size)

@@ -134,6 +134,8 @@ def answers_of_record(
         Of d stress / d amplitude along the record [MPa per its unit], a column of (n, m) for each that is wanted;
         returns (k, m).
     """
+    if not wanted:
+        return {}
     view, (base, active) = model.views[index], model.split(parameters)
     specimen, still = model.at_rest(view, base, active)
     slopes: dict[_Key, FloatArray] = {}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from probation import _core
-from probation._arrays import as_samples, held_samples
+from probation._arrays import as_samples
 from probation.errors import InputError
 
 if TYPE_CHECKING:
@@ -189,7 +189,7 @@ CAPABILITIES: frozenset[str] = frozenset(field.name for field in fields(Modifica
 
 
 def _combined(rule: np.ufunc, mine: ArrayLike, theirs: ArrayLike, name: str) -> FloatArray:
-    one, other = held_samples(np.atleast_1d(mine), name), held_samples(np.atleast_1d(theirs), name)
+    one, other = as_samples(np.atleast_1d(mine), name), as_samples(np.atleast_1d(theirs), name)
     if len(one) != len(other) and 1 not in (len(one), len(other)):
         raise InputError(f"{name} has {len(one)} samples in one modification and {len(other)} in the other")
     return np.asarray(rule(one, other), dtype=np.float64)

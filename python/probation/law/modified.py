@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from probation import _core
-from probation._arrays import held_samples
+from probation._arrays import as_samples, held_samples
 from probation.errors import InputError
 from probation.law.modification import MODES, SAMPLED, Modification, OtherSpectrum
 
@@ -128,10 +128,11 @@ def engine_change(modification: Modification | None) -> _core.LawChange:
         return UNCHANGED
     checked(modification)
     change = _core.LawChange()
-    for name in (*SAMPLED, *MODES):
-        values = getattr(modification, name)
-        if values is not None:
-            setattr(change, name, held_samples(np.atleast_1d(values), name))
+    for names, checked_as in ((SAMPLED, held_samples), (MODES, as_samples)):  # the engine refuses samples by name
+        for name in names:
+            values = getattr(modification, name)
+            if values is not None:
+                setattr(change, name, checked_as(np.atleast_1d(values), name))
     for feedback in modification.feedbacks:
         if not isinstance(feedback, _core.Feedback):
             raise InputError(

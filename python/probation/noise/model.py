@@ -187,8 +187,9 @@ class NoiseModel:
     @cached_property
     def white_specimen(self) -> FloatArray:
         """What deviations of the specimen do, in coordinates in which the rest of the noise is white; shape (n, k)."""
-        columns = np.zeros((len(self), 0)) if self.specimen is None else self.specimen
-        return self.alike.whiten(columns)
+        if self.specimen is None or not self.specimen.shape[1]:
+            return np.zeros((len(self), 0))
+        return self.alike.whiten(self.specimen)
 
     @property
     def drifting(self) -> NoiseModel:
