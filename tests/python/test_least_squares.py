@@ -176,6 +176,19 @@ def test_a_direction_that_the_data_do_not_determine_does_no_harm():
     assert_allclose(minimise(objective, np.array([1.0, 0.0])).x, [2.5, 1.5], rtol=1e-9)
 
 
+def test_a_direction_that_is_not_determined_does_no_harm_behind_steps_that_fail():
+    """arctan(x + y)^3 from far off: steps that are too long leave a damping that vanishes to rounding, and x = y."""
+
+    def slopes(x):
+        total = x.sum()
+        return np.full((1, 2), 3.0 * np.arctan(total) ** 2 / (1.0 + total**2))
+
+    objective = Objective(lambda x: np.array([np.arctan(x.sum()) ** 3]), slopes)
+    found = minimise(objective, np.array([2.5, 2.5]))
+    assert found.cost < 1e-20
+    assert_allclose(found.x[0], found.x[1], atol=1e-4)
+
+
 def test_the_last_step_ends_where_there_is_a_derivative_unless_none_is_asked_for():
     def slopes(x):
         if x[0] > 2.0:

@@ -20,6 +20,7 @@ from probation.inference.remembering import RememberingModel
 from probation.inference.screen import answers_of_record
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.own_deviations import furthest_specimen, specimens_within
+from probation.noise.whitener import Whitener
 from probation.parallel import Copies
 from probation.settings.search import SEARCH
 
@@ -190,7 +191,7 @@ class Refitting:
         counts only along what they do not explain. So specimens that are alike come first there. Where one of them is
         then far from what is usual, that is the end; else the refit goes on from there, unless its next steps leave
         more and a specimen still deviates unusually. A search that explains less than no effect does goes on, too: a
-        fault in one record pulls the law of specimens that are alike.
+        fault in one record pulls the law of specimens that are alike. Not where its effect changes nothing there.
         """
         problem = self.base.problem.with_model(RememberingModel(model))
         if isinstance(start, Refit):
@@ -217,7 +218,8 @@ class Refitting:
         only_alike = problem.with_noises(noises)
         alike = reached(only_alike, first, most_steps=steps, differentiable=differentiable).parameters
         there = refit(problem, alike, most_steps=0)
-        if weak or not self._explains(there) or self._furthest(model, alike) <= SEARCH.farthest_specimen:
+        stays = self._explains(there) or self._gains_nothing(model, alike)
+        if weak or not stays or self._furthest(model, alike) <= SEARCH.farthest_specimen:
             there = self._from_alike(there, alike, steps, differentiable=differentiable)
         return there
 
@@ -269,6 +271,15 @@ class Refitting:
         """How far the specimens' deviations are from what specimens may do: at most 1 where they may."""
         left = self.base.without_outliers(model, model.residual(parameters))
         return furthest_specimen(left, self.base.whitened.noises)
+
+    def _gains_nothing(self, model: CampaignModel, alike: FloatArray) -> bool:
+        """Whether the records are missed as without an effect, if specimens are alike."""
+        whitener = Whitener(self.base.alike.noises)
+        with np.errstate(over="ignore"):
+            left, least = (
+                float(np.sum(whitener.residual(model.residual(at)) ** 2)) for at in (alike, self._without_effect(model))
+            )
+        return abs(left - least) <= SEARCH.slack
 
     def _without_effect(self, model: CampaignModel) -> FloatArray:
         """The base fit as parameters of a model whose causes are absent."""

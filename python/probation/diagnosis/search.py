@@ -438,6 +438,8 @@ class Search:
             self.skipping.hypothesis([*leading.causes, cause], error)
 
         effects = [effect for effect in self.effects if only is None or effect.name == only.effect.name]
+        # Where the best one leaves nothing there is no fault so large that its force has to be sought.
+        every = only is not None or self._something_left(self.ranked()[0])
         return Extended(
             refit.model,
             refit.parameters,
@@ -446,6 +448,7 @@ class Search:
             refit.residual,
             refit.jacobian,
             unsolved=unsolved,
+            only=None if every else lambda form: not form.own_force,
         )
 
     def _worth_adding(

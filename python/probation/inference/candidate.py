@@ -102,7 +102,7 @@ class Extended:
     ----------
     model : CampaignModel
     parameters : ndarray, shape (n_parameters,)
-    effects, unsolved
+    effects, unsolved, only
         As in `Screen.of`; starts are read from the model's own residual.
     whitener : Whitener
     residual : ndarray, shape (N,)
@@ -118,6 +118,7 @@ class Extended:
     residual: FloatArray
     jacobian: FloatArray
     unsolved: Callable[[Cause, Exception], None] | None = None
+    only: Callable[[Form], bool] | None = None
 
     @cached_property
     def span(self) -> FloatArray:
@@ -137,6 +138,7 @@ class Extended:
             self.effects,
             residual=self.model.residual(self.parameters),
             unsolved=self.unsolved,
+            only=self.only,
         )
 
     def candidates(self, found: Sequence[Onset]) -> list[Candidate]:
