@@ -11,7 +11,7 @@ import numpy as np
 
 from probation.diagnosis.budget import Budget
 from probation.effects.cause import Cause
-from probation.inference.base_fit import specimens_hold_the_gap
+from probation.inference.base_fit import misfits, specimens_hold_the_gap
 from probation.inference.candidate import cause_key, noted
 from probation.inference.evidence import Evidence, evidence
 from probation.inference.form_error import form_freedom
@@ -20,7 +20,6 @@ from probation.inference.remembering import RememberingModel
 from probation.inference.screen import answers_of_record
 from probation.inference.unsolvable import UNSOLVABLE
 from probation.noise.own_deviations import furthest_specimen, specimens_within
-from probation.noise.whitener import Whitener
 from probation.parallel import Copies
 from probation.settings.search import SEARCH
 
@@ -274,12 +273,8 @@ class Refitting:
 
     def _gains_nothing(self, model: CampaignModel, alike: FloatArray) -> bool:
         """Whether the records are missed as without an effect, if specimens are alike."""
-        whitener = Whitener(self.base.alike.noises)
-        with np.errstate(over="ignore"):
-            left, least = (
-                float(np.sum(whitener.residual(model.residual(at)) ** 2)) for at in (alike, self._without_effect(model))
-            )
-        return abs(left - least) <= SEARCH.slack
+        left, least = misfits(model, self.base.alike.noises, (alike, self._without_effect(model)))
+        return abs(left * left - least * least) <= SEARCH.slack
 
     def _without_effect(self, model: CampaignModel) -> FloatArray:
         """The base fit as parameters of a model whose causes are absent."""

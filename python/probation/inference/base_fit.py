@@ -35,7 +35,7 @@ from probation.noise.whitening import Whitened
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from probation._arrays import FloatArray
     from probation.effects.cause import Cause
@@ -359,10 +359,15 @@ def specimens_hold_the_gap(
         By which the misfit is counted: of specimens that are alike.
     before, after : ndarray, shape (n_parameters,)
     """
-    whitener = Whitener(tuple(alike))
-    with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
-        least, left = (float(np.linalg.norm(whitener.residual(model.residual(at)))) for at in (before, after))
+    least, left = misfits(model, alike, (before, after))
     return left > NOISE.most_left_to_specimens * least
+
+
+def misfits(model: CampaignModel, noises: Sequence[NoiseModel], places: Iterable[FloatArray]) -> list[float]:
+    """Root of the sum of squares that each of several parameters leaves, in white coordinates [-]."""
+    whitener = Whitener(tuple(noises))
+    with np.errstate(over="ignore"):  # a misfit too large for a number is infinite
+        return [float(np.linalg.norm(whitener.residual(model.residual(at)))) for at in places]
 
 
 def _leaves_a_gap(fit: Refit) -> bool:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.records.ended import ended
+
 if TYPE_CHECKING:
     from probation.records.record import Record
 
@@ -38,14 +40,11 @@ def until_break(record: Record) -> tuple[Record, str]:
 
     A specimen has broken where all of its force is gone within some samples, for good, while it is stretched on.
     """
-    end = _end(record)
-    if end == len(record):
-        return record, ""
-    note = (
-        f"the force falls to less than a tenth at {record.time[end]:.6g} s while the specimen is stretched on: taken "
-        f"for its break; the {len(record) - end} samples from there on were left out"
+    return ended(
+        record,
+        _end(record),
+        "the force falls to less than a tenth at {time:.6g} s while the specimen is stretched on: taken for its break",
     )
-    return record.only(slice(end)), note
 
 
 def _end(record: Record) -> int:

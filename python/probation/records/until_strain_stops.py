@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from probation.records.ended import ended
+
 if TYPE_CHECKING:
     from probation._arrays import FloatArray
     from probation.records.record import Record
@@ -47,15 +49,12 @@ def until_strain_stops(record: Record) -> tuple[Record, str]:
     Where a strain is held the force leaves its way at once, and levels off. Where it goes on as if nothing were, the
     strain is not held.
     """
-    stopped = _stopped(record)
-    if stopped == len(record):
-        return record, ""
-    note = (
-        f"the strain stays at {np.median(record.true_strain[stopped:]):.4g} from {record.time[stopped]:.6g} s on while "
-        f"the force goes on as before: taken for an extensometer that has stopped; the {len(record) - stopped} samples "
-        "from there on were left out"
+    return ended(
+        record,
+        _stopped(record),
+        "the strain stays at {strain:.4g} from {time:.6g} s on while the force goes on as before: taken for an "
+        "extensometer that has stopped",
     )
-    return record.only(slice(stopped)), note
 
 
 def _stopped(record: Record) -> int:
