@@ -32,6 +32,10 @@ def frame_at(stress):
     )
 
 
+def answer_about(_):
+    return frame_at(np.zeros(len(TIME))).answer
+
+
 def test_the_relaxation_is_read_off_the_law():
     frame = frame_at(np.zeros(len(TIME)))
     since = np.geomspace(0.2, 50.0, 30)
@@ -44,7 +48,7 @@ def test_the_relaxation_is_read_off_the_law():
 
 def test_the_force_is_the_same_with_and_without_a_linear_specimen_and_takes_a_third_of_the_solves():
     solved, found = [], []
-    for about in (np.asarray, frame_at(np.zeros(len(TIME))).answer):
+    for about in (lambda _: np.asarray, answer_about):
         count = 0
 
         def counted(stress):
@@ -62,15 +66,13 @@ def test_the_force_is_the_same_with_and_without_a_linear_specimen_and_takes_a_th
 
 
 def test_the_answer_to_a_change_is_its_derivative():
-    frame = frame_at(np.zeros(len(TIME)))
-
     def with_modulus(modulus):
         law = probation.Law(unrelaxed_modulus=modulus, tau_max=4.0, hardening_modulus=1.5)
 
         def stress(y):
             return law.stress(TIME, TRAVEL - COMPLIANCE * y, "sa2")
 
-        return stress, OwnForce(stress, LAW.stress(TIME, 0.5 * TRAVEL, "sa2"), frame.answer)
+        return stress, OwnForce(stress, LAW.stress(TIME, 0.5 * TRAVEL, "sa2"), answer_about)
 
     _, here = with_modulus(1500.0)
     more, above = with_modulus(1515.0)
@@ -79,13 +81,37 @@ def test_the_answer_to_a_change_is_its_derivative():
     assert slope == pytest.approx((above.stress - below.stress) / 30.0, rel=2e-3, abs=1e-6)
 
 
+def test_a_frame_answers_to_a_hundredth_also_where_the_section_follows_from_its_strain():
+    """The true stress is made with the recorded strain, of which a part is the frame's: it grows with that part."""
+
+    def recorded(stress):
+        return np.exp(COMPLIANCE * stress) * stress_left(stress)
+
+    def about(stress):
+        give = np.full(len(TIME), -COMPLIANCE)
+        strain = TRAVEL - COMPLIANCE * stress
+        return ElasticFrame.of(
+            TIME,
+            strain,
+            give,
+            lambda step: LAW.stress(TIME, strain + step, "sa2"),
+            conversion=COMPLIANCE * stress,
+            growth=COMPLIANCE * stress,
+        ).answer
+
+    own = OwnForce(recorded, LAW.stress(TIME, 0.5 * TRAVEL, "sa2"), about)
+    change = 0.01 * own.stress
+    answer = own.answer(change)
+    missed = np.max(np.abs(about(own.stress)(change) - answer))
+    assert missed < 0.01 * np.max(answer)
+    assert missed < 0.2 * np.max(np.abs(frame_at(own.stress).answer(change) - answer))
+
+
 def test_an_answer_is_the_same_whatever_was_asked_for_before():
     """What one answer has found is kept for the next; the last one begins anew, with as much as is kept."""
-    own = OwnForce(stress_left, LAW.stress(TIME, 0.5 * TRAVEL, "sa2"), frame_at(np.zeros(len(TIME))).answer)
+    own = OwnForce(stress_left, LAW.stress(TIME, 0.5 * TRAVEL, "sa2"), answer_about)
     asked = [np.sin((1.0 + k) * TIME / TIME[-1]) for k in range(12)]
-    fresh = [
-        OwnForce(stress_left, own.stress, frame_at(np.zeros(len(TIME))).answer).answer(each, 1e-6) for each in asked
-    ]
+    fresh = [OwnForce(stress_left, own.stress, answer_about).answer(each, 1e-6) for each in asked]
     for each, alone in zip(asked, fresh, strict=True):
         assert own.answer(each, 1e-6) == pytest.approx(alone, abs=1e-4 * float(np.max(np.abs(alone))))
 

@@ -97,6 +97,8 @@ class RecordView:
         Where the law's parameters are meant [°C]: one number for all records, None unless each has its temperature.
     same_data : RecordView or None
         In a view from `driven` or `quietened`, the one that it was made of: what was recorded is the same.
+    kinks_held : bool
+        Whether `driven` leaves `jumps` as they are: see `with_kinks`.
     """
 
     id: str
@@ -121,6 +123,7 @@ class RecordView:
     reference_temperature: float | None = None
     same_data: RecordView | None = None
     transverse_strain: FloatArray | None = None
+    kinks_held: bool = False
 
     def __len__(self) -> int:
         return len(self.time)
@@ -384,13 +387,20 @@ class RecordView:
         """The same record, effects that hand its force back to the strain taking this true stress, shape (n,) [MPa]."""
         return self._with(quiet_stress=stress, same_data=self.same_data or self)
 
+    def with_kinks(self, jumps: tuple[int, ...]) -> RecordView:
+        """The same record, whatever drives the law having these jumps of the rate and no further kink.
+
+        A kink that passes a sample would make the stress jump, and what is sought in small steps stumbles over that.
+        """
+        return self._with(jumps=jumps, kinks_held=True, same_data=self.same_data or self)
+
     def driven(self, true_strain: FloatArray) -> RecordView:
         """The same record with another strain driving the law; given rates follow by the scheme's difference.
 
         Where slack ends, the specimen's strain has a kink within a step: its rate jumps at either end.
         """
         rate, jumps = self.strain_rate, self.jumps
-        if kink := self._taut_from(true_strain):
+        if not self.kinks_held and (kink := self._taut_from(true_strain)):
             jumps = tuple(sorted({*jumps, kink - 1, kink}))
         if rate is not None:
             backward = as_scheme(self.scheme).name == "be2"

@@ -27,6 +27,9 @@ SAMPLES = 60
 STEP = 1e-6
 """Strain by which the law is probed [-]."""
 
+MOST_GROWTH = 0.9
+"""Of `ElasticFrame.growth`: far from balance the factor would do more than the stress itself."""
+
 MOVING = 0.02
 """Part of its range that the strain has to move by until the specimen is under way; slack goes before."""
 
@@ -42,16 +45,28 @@ class ElasticFrame:
         Of the specimen; infinite times are elastic.
     give : ndarray, shape (n,) [1/MPa]
         Strain that the frame takes away from the specimen per stress, negative.
+    factor : ndarray, shape (n,) [-]
+        The recorded stress over the specimen's: both are one force, on sections that differ.
+    growth : ndarray, shape (n,) [-]
+        How much of a change of the recorded stress comes back because the factor changes with it, below 1.
     """
 
     time: FloatArray
     modulus: FloatArray
     relaxation_time: FloatArray
     give: FloatArray
+    factor: FloatArray
+    growth: FloatArray
 
     @classmethod
     def of(
-        cls, time: FloatArray, strain: FloatArray, give: FloatArray, stress_at: Callable[[FloatArray], FloatArray]
+        cls,
+        time: FloatArray,
+        strain: FloatArray,
+        give: FloatArray,
+        stress_at: Callable[[FloatArray], FloatArray],
+        conversion: FloatArray | None = None,
+        growth: FloatArray | None = None,
     ) -> ElasticFrame:
         """Read off a law.
 
@@ -62,6 +77,8 @@ class ElasticFrame:
         give : ndarray, shape (n,) [1/MPa]
         stress_at : callable
             Stress (n,) [MPa] of the law at a change (n,) of the specimen's strain.
+        conversion, growth : ndarray, shape (n,) [-], optional
+            Logarithm of the factor, and what comes back through it.
         """
         from scipy.optimize import nnls  # noqa: PLC0415 - few need it
 
@@ -76,8 +93,15 @@ class ElasticFrame:
         columns = np.column_stack([np.exp(-since[read, None] / times), np.ones(len(read))])
         modulus = nnls(columns, relaxation[read])[0]
         kept = modulus > 0.0
-        return cls(time, modulus[kept], np.append(times, np.inf)[kept], np.minimum(give, 0.0))
+        factor = np.ones_like(give) if conversion is None else np.exp(conversion)
+        growth = np.zeros_like(give) if growth is None else np.minimum(growth, MOST_GROWTH)
+        return cls(time, modulus[kept], np.append(times, np.inf)[kept], np.minimum(give, 0.0), factor, growth)
 
     def answer(self, change: FloatArray) -> FloatArray:
-        """Change of the stress (n,) [MPa] where it would change by so much were the strain held."""
-        return _core.stress_behind_frame(self.time, self.modulus, self.relaxation_time, self.give, change)
+        """Change of the recorded stress (n,) [MPa] where it would change by so much were the strain held."""
+        passed = self.factor / (1.0 - self.growth)
+        behind = _core.stress_behind_frame(
+            self.time, self.modulus, self.relaxation_time, self.give * passed, change / self.factor
+        )
+        return np.asarray(passed * behind)
+

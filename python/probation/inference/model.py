@@ -60,6 +60,10 @@ class Specimen:
     own_force: OwnForce | None = None
 
 
+_MOVED_KINKS = 3
+"""How often a force is sought whose own change moves a kink of the strain past a sample."""
+
+
 class CampaignModel:
     """A base law and causes, on the records of a campaign: the forward model, which a `Problem` holds with the noise.
 
@@ -348,16 +352,33 @@ class CampaignModel:
     def balance(
         self, view: RecordView, base: FloatArray, causes: CauseValues, settled: float, near: OwnForce | None = None
     ) -> OwnForce:
-        """The force at which frame and specimen are in balance; as in `specimen`."""
+        """The force at which frame and specimen are in balance; as in `specimen`.
 
-        def under(stress: FloatArray) -> FloatArray:
-            return self._driven(view.quietened(stress), base, causes, sensitivity=False).stress
-
+        Kinks of the strain stay where they are while it is sought; it is sought once more where they have moved then.
+        """
         start = view.smooth_true_data
         if near is not None:  # a small change is lost within `settled` of the force, unless its first order is taken
-            start = near.moved(under(near.stress))
-        frame = self._frame(view.quietened(start), base, causes)
-        return OwnForce(under, start, frame.answer, settled)
+            start = near.moved(self._driven(view.quietened(near.stress), base, causes, sensitivity=False).stress)
+        kinks = self._kinks(view, causes, start)
+        for _ in range(_MOVED_KINKS):
+            held = view.with_kinks(kinks)
+
+            def under(stress: FloatArray, held: RecordView = held) -> FloatArray:
+                return self._driven(held.quietened(stress), base, causes, sensitivity=False).stress
+
+            def about(stress: FloatArray, held: RecordView = held) -> Callable[[FloatArray], FloatArray]:
+                return self._frame(held.quietened(stress), base, causes).answer
+
+            force = OwnForce(under, start, about, settled)
+            start, before = force.stress, kinks
+            kinks = self._kinks(view, causes, start)
+            if kinks == before:
+                break
+        return force
+
+    def _kinks(self, view: RecordView, causes: CauseValues, stress: FloatArray) -> tuple[int, ...]:
+        """Jumps of the rate of what drives the law under this recorded stress (n,) [MPa]."""
+        return _seen(view.quietened(stress), causes)[0].jumps
 
     def _driven(self, view: RecordView, base: FloatArray, causes: CauseValues, sensitivity: bool) -> Specimen:
         """The same with the force that the view has."""
@@ -371,17 +392,20 @@ class CampaignModel:
 
     def _frame(self, view: RecordView, base: FloatArray, causes: CauseValues) -> ElasticFrame:
         """About how the specimen's stress answers, with what a change of the force does to its strain."""
-        seen, _ = _seen(view, causes)
+        seen, conversion = _seen(view, causes)
         assert view.quiet_stress is not None
         probe = _PROBE * max(float(np.max(np.abs(view.quiet_stress))), 1.0)
-        moved, _ = _seen(view.quietened(view.quiet_stress + probe), causes)
+        moved, other = _seen(view.quietened(view.quiet_stress + probe), causes)
         give = (moved.true_strain - seen.true_strain) / probe
         change = _modification(seen, causes)
 
         def stress_at(step: FloatArray) -> FloatArray:
             return self.law.stress(seen.driven(seen.true_strain + step), base, change)
 
-        return ElasticFrame.of(seen.time, seen.true_strain, give, stress_at)
+        growth = None
+        if conversion is not None and other is not None:
+            growth = view.quiet_stress * (other - conversion) / probe
+        return ElasticFrame.of(seen.time, seen.true_strain, give, stress_at, conversion, growth)
 
     def recorded(
         self,

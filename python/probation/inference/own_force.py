@@ -28,6 +28,9 @@ MOST_NEWTON_STEPS = 12
 MOST_DIRECTIONS = 24
 """Directions of one answer; it takes two to eight."""
 
+MANY = 6
+"""Directions of one step beyond which what is about right is read anew: it costs as much as six."""
+
 MOST_KEPT = 72
 """Directions that answers at one force share: what an answer finds, the next one need not look for."""
 
@@ -71,7 +74,7 @@ class OwnForce:
     start : ndarray, shape (n,) [MPa]
         The recorded stress, or something near it.
     about : callable, optional
-        About (I - dG/dy)^-1 along a direction (n,); the direction itself, if left out.
+        Of a stress (n,) about (I - dG/dy)^-1 there, which takes a direction (n,); the direction itself, if left out.
     settled : float
         `SETTLED` or `ROUGHLY`.
 
@@ -85,10 +88,10 @@ class OwnForce:
         self,
         stress: Callable[[FloatArray], FloatArray],
         start: FloatArray,
-        about: Callable[[FloatArray], FloatArray] = np.asarray,
+        about: Callable[[FloatArray], Callable[[FloatArray], FloatArray]] = lambda _: np.asarray,
         settled: float = SETTLED,
     ) -> None:
-        self._of, self._about = stress, about
+        self._of, self._about = stress, about(start)
         self.stress = start
         self._size = max(float(np.max(np.abs(start))), 1e-300)
         self._next = stress(start)
@@ -97,6 +100,7 @@ class OwnForce:
         with np.errstate(over="ignore", invalid="ignore"):  # far from any force that there is
             left = self._next - start
             norms, part_left = [float(np.linalg.norm(left))], ROUGHEST
+        lost = 0
         for _ in range(MOST_NEWTON_STEPS):
             if np.max(np.abs(left)) <= settled * self._size:
                 return
@@ -104,6 +108,7 @@ class OwnForce:
             if stuck or not np.max(np.abs(self._about(left))) < HOPELESS * self._size:
                 break
             step = self.answer(left, part_left)
+            directions = self._known
             # Where the law has a kink a whole step may overshoot.
             for part in PARTS:
                 there = self.stress + part * step
@@ -114,7 +119,12 @@ class OwnForce:
                 if norm < norms[-1]:
                     break
             self.stress, self._next, self._known = there, beyond, 0
+            if directions > MANY:
+                self._about = about(there)
             norms.append(norm)
+            lost = lost + 1 if directions >= MOST_DIRECTIONS else 0
+            if lost == 2:
+                break
             part_left = min(max((norm / norms[-2]) ** 2, FINEST), ROUGHEST)
         if not np.max(np.abs(left)) <= max(GOOD_ENOUGH, settled) * self._size:
             raise ConvergenceError("no force was found at which frame and specimen are in balance")
