@@ -8,6 +8,7 @@ import pytest
 
 from campaigns.few_records import CORNERS, NOISE, damage, few_records, offset
 from probation import InputError, Noise
+from probation.comparison.compare import compare
 from probation.diagnosis.diagnose import diagnose
 from probation.law.settings import LawSettings
 
@@ -50,6 +51,31 @@ def damaged():
 @pytest.fixture(scope="module")
 def unexplained():
     return diagnosed(few_records(twisted, names=("slow", "middle", "fast")), effects=["force_offset", "damage"])
+
+
+def test_what_reading_a_record_doubted_is_a_warning_of_a_diagnosis_and_of_a_comparison():
+    campaign = few_records()
+    doubted = replace(campaign.records[0], warnings=("strain in percent?",))
+    campaign = replace(campaign, records=(doubted, *campaign.records[1:]))
+    said = f"{doubted.id}: strain in percent?"
+    assert said in diagnosed(campaign, effects=["force_offset"]).warnings
+    compared = compare(campaign, few_records(seed=5), effects=["force_offset"], threads=1).warnings
+    assert said in compared
+    compared = compare(few_records(seed=5), campaign, effects=["force_offset"], threads=1).warnings
+    assert any(said in warning for warning in compared)
+
+
+def aged(names):
+    """Stiffer by 4 % from test to test."""
+    return lambda name, time, strain, stress: stress * (1.0 + 0.04 * names.index(name))
+
+
+@pytest.mark.parametrize(("names", "said"), [(("slow", "middle", "fast"), True), (("middle", "slow", "fast"), False)])
+def test_a_change_between_tests_in_the_order_of_their_rates_comes_with_a_warning(names, said):
+    found = diagnosed(few_records(aged(names), names=names), effects=["change_between_tests"])
+    warned = any("in the order of their rates" in warning for warning in found.warnings)
+    assert [part.name for part in found.effects if part.named] == ["change_between_tests"]
+    assert warned == said
 
 
 def test_the_answer_does_not_depend_on_how_many_refits_are_made_at_once():

@@ -183,6 +183,12 @@ def test_an_explanation_that_leaves_plainly_more_than_noise_explains_too_little(
     assert leaves_too_much(Shrink(closed(after), None, {}, (), ceiling)) is too_much
 
 
+def test_an_explanation_that_leaves_a_good_part_of_the_gap_explains_too_little_whatever_that_is():
+    """A wave took 0.986 MPa to 0.612, the noise being 0.1: no smooth correction does better, and it is no noise."""
+    left = Closure(before_MPa=0.986, after_MPa=0.612, noise_MPa=0.101, closure=0.62, interval=None, how="")
+    assert leaves_too_much(Shrink(left, None, {}, (), replace(left, after_MPa=0.6)))
+
+
 @pytest.mark.parametrize(("explained", "too_much"), [(0.6, True), (0.4, False), (None, False)])
 def test_what_is_a_function_of_what_was_recorded_is_no_noise(explained, too_much):
     """0.88 MPa, of which any smooth correction leaves 0.80: a function of the rate closes most of it, or less."""

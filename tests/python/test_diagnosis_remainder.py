@@ -9,7 +9,9 @@ import pytest
 
 from probation import Campaign, Law, Record, diagnose
 from probation.diagnosis.closure import Closure
+from probation.diagnosis.free_function import Dependence, RemainderCurve
 from probation.diagnosis.remainder import remainder_of
+from probation.diagnosis.remainder_words import description
 from probation.effects.cause import Cause
 from probation.effects.registry import effect
 from probation.identify.base import base_fit
@@ -168,6 +170,18 @@ def test_the_function_in_the_figure_is_the_one_that_was_put_in():
     assert curve.unit == "%"
     at = np.interp([0.5, 0.9], curve.function_x, curve.function_y)
     assert at == pytest.approx([-30.0 * 0.5**1.5, -30.0 * 0.9**1.5], abs=4.0)
+
+
+@pytest.mark.parametrize(("largest", "stated"), [(0.9, True), (0.005, False)])
+def test_a_function_that_parameters_follow_has_no_size(largest, stated):
+    """What a time left, 0.6 MPa, was "up to 0.0051 MPa" of it: what the parameters do not follow, next to nothing."""
+    inside = np.ones(50, dtype=bool)
+    x = np.linspace(0.0, 1.0, 50)
+    curve = RemainderCurve("time [s]", "MPa", x, 0.6 * np.sin(9.0 * x), inside, ~inside, x, largest * np.sin(9.0 * x))
+    first = Dependence("time", "the time", None, "added", 0.44, "records")
+    text = description("what is left", 0.6, 0.1, (first,), curve, 0.44)
+    assert ("up to" in text) == stated
+    assert ("so that its course is not known" in text) != stated
 
 
 @pytest.fixture(scope="module")

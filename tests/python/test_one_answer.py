@@ -65,6 +65,7 @@ def test_records_that_hardly_determine_the_law_show_no_gap_and_certify_nothing()
     assert probation.diagnose(campaign, design=False).verdict == "no_gap"
     assert certificate.verdict == "not_intrinsic"
     assert "though there is no gap" in certificate.reason
+    assert certificate.headline.startswith("Whether the law is intrinsic is not known: ")
     assert not certificate.gap.exists
 
 

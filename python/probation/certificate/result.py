@@ -83,6 +83,8 @@ class Certificate(Result, Stored):
     @property
     def headline(self) -> str:
         """Verdict and reason."""
+        if self.verdict == "not_intrinsic" and self.gap is not None and not self.gap.exists:
+            return f"Whether the law is intrinsic is not known: {self.reason}."
         return f"The law is {VERDICTS[self.verdict]}: {self.reason}."
 
     def to_dict(self) -> dict[str, Any]:

@@ -104,8 +104,7 @@ def compare(
     workers = at_once(threads)
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     together = pair(campaign, reference.campaign, pairs)
-    campaign, changed = as_tested(campaign)
-    of_reference = as_tested(reference.campaign)[1]
+    campaign, of_reference = as_tested(campaign)[0], as_tested(reference.campaign)[0].warnings
     campaign, thinned = thin(campaign)
     kept = replace(campaign, records=tuple(replace(r, role="identify") for r in campaign.records if r.id in together))
     for record in kept.records:
@@ -177,7 +176,7 @@ def compare(
         skipped=causes.skipped(skipping),
         scatter=causes.base.scatter,
         warnings=(
-            *changed,
+            *campaign.warnings,
             *(f"{reference.campaign.name}, {note}" for note in of_reference),
             *thinned,
             *calibration.warnings,

@@ -133,7 +133,7 @@ def diagnose(
 
     for record in campaign.records:
         require_signal(record)
-    campaign, changed = as_tested(campaign)
+    campaign, _ = as_tested(campaign)
     campaign, thinned = thin(campaign)
 
     def done(part: float, doing: str = "") -> None:
@@ -214,6 +214,7 @@ def diagnose(
                     tolerance=tolerance,
                     cut=causes.cut is not None,
                     chosen=effects is not None,
+                    rough_MPa=base.rough_MPa,
                 ),
                 left if gap.matters(tolerance) else None,
             ),
@@ -247,10 +248,11 @@ def diagnose(
         next_tests=following,
         curves=curves,
         warnings=(
-            *changed,
+            *campaign.warnings,
             *thinned,
             *unlike_others(campaign.records),
             *_warnings(base, gap.test.robust),
+            *_in_order_of_rates(base, parts.named),
             *_not_followed(beyond_the_law, of=len(considered) + len(beyond_the_law)),
             *calibration.warnings,
         ),
@@ -391,6 +393,10 @@ def _with_predictions(base: BaseFit) -> Whitened:
     return Whitened.of([*base.whitened.records, *records], [*base.whitened.noises, *noises])
 
 
+BETWEEN_TESTS = "change_between_tests"
+"""The effect that goes by the order of the tests."""
+
+
 def _not_followed(beyond_the_law: Sequence[Effect], of: int) -> tuple[str, ...]:
     """One sentence where the law cannot follow effects, of so many that the records could show; else empty."""
     if not beyond_the_law:
@@ -402,6 +408,19 @@ def _not_followed(beyond_the_law: Sequence[Effect], of: int) -> tuple[str, ...]:
         "give the law more capabilities"
     )
     return (text,)
+
+
+def _in_order_of_rates(base: BaseFit, named: Sequence[str]) -> tuple[str, ...]:
+    """What a change from test to test is not told from, where one is named."""
+    rates = [float(np.median(view.rate)) for view in base.model.views]
+    steps = np.diff(np.log(rates))
+    in_order = len(rates) > 2 and (np.all(steps >= 0.0) or np.all(steps <= 0.0)) and bool(np.any(steps != 0.0))
+    if not in_order or BETWEEN_TESTS not in named:
+        return ()
+    return (
+        "the tests were made in the order of their rates, or are listed so: what changes from test to test cannot be "
+        "told from what depends on the rate; repeat the first test",
+    )
 
 
 def _warnings(base: BaseFit, robust: bool) -> tuple[str, ...]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from probation.diagnosis.remainder_words import function_name
 from probation.effects.registry import effect
 from probation.inference.unknown import UNKNOWN
@@ -65,6 +67,7 @@ def headline(
     tolerance: float = DETECTION.tolerance,
     cut: bool = False,
     chosen: bool = False,
+    rough_MPa: float = np.inf,
 ) -> str:
     """One sentence a person can act on; effects are named by what they close (docs/diagnosis-method.md, section 8).
 
@@ -84,6 +87,8 @@ def headline(
         Whether the budget ended the search.
     chosen : bool
         Whether only some effects were asked for.
+    rough_MPa : float
+        What the records scatter by from one sample to the next.
     """
     identify = shrink.identify
     fitted = len(shrink.records) - len(gap.held_out)
@@ -98,6 +103,8 @@ def headline(
         described = f"to within the noise of {identify.noise_MPa:.2g} MPa"
         if identify.after_MPa > EVIDENCE.most_left * identify.noise_MPa:
             described = f"to {identify.after_MPa:.3g} MPa, the noise being {identify.noise_MPa:.2g} MPa,"
+        if identify.noise_MPa > EVIDENCE.mostly_slow * rough_MPa:
+            described += f" (readings scatter by {rough_MPa:.2g} MPa; what is slower is taken for noise, too)"
         if gap.hangs_on_scatter:
             certain = f" beyond what specimens may differ by{certain}"
             described += " with deviations of its own for each specimen"
@@ -254,9 +261,13 @@ def _leaves_more(each: Explanation) -> bool:
 
 
 def _hardly(best: Explanation, parts: Attribution, identify: Closure) -> bool:
-    """Whether known effects with less than an even chance close less than half of the gap: they only come nearest."""
-    closes = identify.closure is not None and identify.closure < EVIDENCE.half_of_the_gap
-    return closes and parts.probability < EVIDENCE.even_chance and UNKNOWN not in best.effects
+    """Whether known effects only come nearest: they close next to nothing, or less than half with less than an even
+    chance.
+    """
+    if identify.closure is None or UNKNOWN in best.effects:
+        return False
+    next_to_nothing = identify.closure < EVIDENCE.least_part
+    return next_to_nothing or (identify.closure < EVIDENCE.half_of_the_gap and parts.probability < EVIDENCE.even_chance)
 
 
 def _far_behind(each: Explanation, best: Explanation) -> bool:

@@ -46,7 +46,7 @@ def description(
     first, *others = depends_on
     judged = "records left out" if first.judged_on == "records" else "parts of the records left out"
     text = f"{size} is a function of {function_name(first)}, which closes {percent(first.explained)} of it in {judged}"
-    text += f": {_size(curve)}"
+    text += f": {_size(curve, first.explained)}"
     rivals = [
         function_name(dependence)
         for dependence in others
@@ -62,10 +62,16 @@ def function_name(each: Dependence) -> str:
     return each.title if each.when is None else f"{each.title}, {PHASES[each.when]}"
 
 
-def _size(curve: RemainderCurve) -> str:
-    """Where the function is largest, and how large: "the law, refitted jointly, is up to 12 % above …"."""
+def _size(curve: RemainderCurve, explained: float) -> str:
+    """Where the function is largest, and how large: "the law, refitted jointly, is up to 12 % above …".
+
+    Not where what is left of it, without what the law's parameters follow, is smaller than what it explains.
+    """
     at = int(np.argmax(np.abs(curve.function_y)))
     value = float(curve.function_y[at])
+    missing = curve.y[curve.inside]
+    if abs(value) < np.sqrt(max(explained, 0.0) * np.mean(missing**2)):
+        return "the law's parameters follow most of such a function, so that its course is not known"
     size = f"{percentage(0.01 * abs(value))} %" if curve.unit == "%" else f"{abs(value):.2g} MPa"
     side = "below" if value > 0.0 else "above"
     return f"the law, refitted jointly with it, is up to {size} {side} the measured stress, at {_place(curve, at)}"

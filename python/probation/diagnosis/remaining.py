@@ -22,7 +22,8 @@ def leaves_too_much(shrink: Shrink, left: Remainder | None = None) -> bool:
     """Whether the misfit after the best explanation is plainly larger than what noise there may be.
 
     Noise may be more than is estimated: as much as any smooth correction leaves. But what is mostly a function of what
-    was recorded, where that was left out, is no noise.
+    was recorded, where that was left out, is no noise; and where a good part of the gap is left, nothing is explained,
+    whatever it is.
 
     Parameters
     ----------
@@ -30,12 +31,15 @@ def leaves_too_much(shrink: Shrink, left: Remainder | None = None) -> bool:
     left : Remainder, optional
         What the explanation leaves, described.
     """
-    reachable = shrink.identify.noise_MPa
-    if shrink.ceiling is not None:
+    fitted = shrink.identify
+    reachable = fitted.noise_MPa
+    before, after = (max(rms**2 - reachable**2, 0.0) for rms in (fitted.before_MPa, fitted.after_MPa))
+    mostly_left = after > (1.0 - EVIDENCE.explained_part) * before
+    if shrink.ceiling is not None and not mostly_left:
         reachable = max(reachable, shrink.ceiling.after_MPa)
     if left is not None and left.mostly_a_function:
-        reachable = shrink.identify.noise_MPa
-    return shrink.identify.after_MPa > EVIDENCE.most_left * reachable
+        reachable = fitted.noise_MPa
+    return fitted.after_MPa > EVIDENCE.most_left * reachable
 
 
 def remaining_gap(found: Refit, base: BaseFit, *, seed: int, share: float = EVIDENCE.reported_remainder) -> GapTest:

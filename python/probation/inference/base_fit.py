@@ -32,6 +32,7 @@ from probation.noise.own_deviations import own_deviations, specimen_columns
 from probation.noise.uncertain_scatter import UncertainScatter
 from probation.noise.whitener import Whitener
 from probation.noise.whitening import Whitened
+from probation.records.noise import noise_level
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
@@ -163,6 +164,15 @@ class BaseFit:
         noises = self.whitened.noises
         floor = [noise.deviation for noise in noises]
         return float(np.sqrt(mean_square(self.errors, noises))), float(np.sqrt(mean_square(floor, noises)))
+
+    @property
+    def rough_MPa(self) -> float:
+        """Root mean square of what the identify records scatter by from one sample to the next [MPa]."""
+        levels = [
+            np.full(len(error), noise_level(view.sampled(view.time), error))
+            for view, error in zip(self.model.views, self.errors, strict=True)
+        ]
+        return float(np.sqrt(mean_square(levels, self.whitened.noises)))
 
     @cached_property
     def covariance(self) -> FloatArray:

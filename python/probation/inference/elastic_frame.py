@@ -104,4 +104,3 @@ class ElasticFrame:
             self.time, self.modulus, self.relaxation_time, self.give * passed, change / self.factor
         )
         return np.asarray(passed * behind)
-

@@ -1,4 +1,4 @@
-"""Records as they were tested: what a program or a machine added when they were written is taken away."""
+"""Records as they were tested: what a program, a machine or a logger added when they were written is taken away."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING
 from probation.records.even_times import even_times
 from probation.records.until_break import until_break
 from probation.records.until_strain_stops import until_strain_stops
+from probation.records.without_glitches import without_glitches
 
 if TYPE_CHECKING:
     from probation.records.campaign import Campaign
 
 
 def as_tested(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
-    """The campaign with records that end where specimen or extensometer did, at times before rounding; what was done.
+    """The campaign with records without glitches, ended where specimen or extensometer did, at times before rounding.
+
+    Beside it what was done.
 
     Every record that was changed has a warning, too.
 
@@ -25,7 +28,7 @@ def as_tested(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
     records, said = [], []
     for record in campaign.records:
         notes = []
-        for step in (until_break, until_strain_stops, even_times):
+        for step in (without_glitches, until_break, until_strain_stops, even_times):
             record, note = step(record)  # noqa: PLW2901
             notes += [note] if note else []
         said += [f"{record.id}: {note}" for note in notes]

@@ -158,7 +158,7 @@ class Record(InOneLine):
         """The sampled quantities that there are, by name, time first."""
         return {name: values for name in SAMPLED if (values := getattr(self, name)) is not None}
 
-    def only(self, chosen: slice) -> "Record":
+    def only(self, chosen: "slice | NDArray[np.bool_]") -> "Record":
         """The same with some of its samples."""
 
         def taken(values: FloatArray | None) -> FloatArray | None:
