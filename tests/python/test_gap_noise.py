@@ -14,9 +14,9 @@ from probation.detection.noise_without_sharp import without_sharp
 from probation.noise.arma import Arma, Periodogram, fit_arma
 from probation.noise.estimate import estimate_noise
 from probation.noise.outliers import find_outliers
-from probation.noise.quantisation import quantisation_step
 from probation.noise.smooth_basis import waves
 from probation.noise.whitening import Whitened
+from probation.records.quantisation import quantisation_step
 from probation.settings.noise import NOISE
 
 

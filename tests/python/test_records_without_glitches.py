@@ -1,4 +1,4 @@
-"""Readings that are none: spikes of a logger, gaps that were filled with a number."""
+"""Readings that are none: spikes of a logger, gaps that were filled with a number; and coarse ones."""
 
 from dataclasses import replace
 
@@ -7,6 +7,7 @@ import pytest
 
 import probation
 from probation.records.as_tested import as_tested
+from probation.records.noise import stress_noise
 from probation.records.without_glitches import without_glitches
 
 LAW = probation.Law(unrelaxed_modulus=1400.0, tau_max=25.0, hardening_modulus=4.0)
@@ -97,3 +98,12 @@ def test_what_happens_often_is_not_by_accident():
     one = pull()
     often = with_readings(one, dict.fromkeys(range(20, 290, 20), 99.0 * float(np.max(one.true_stress))))
     assert without_glitches(often)[0] is often
+
+
+def test_the_steps_of_coarse_readings_are_noise():
+    """Between steps of 0.5 MPa most readings lie on the line of their neighbours: 2e-5 MPa were the noise once."""
+    one = pull()
+    coarse = replace(one, true_stress=0.5 * np.round(LAW.stress(one.time, one.true_strain, "exact") / 0.5))
+    assert stress_noise(coarse) == pytest.approx(0.5 / np.sqrt(12.0), rel=0.3)
+    assert stress_noise(one) == pytest.approx(NOISE, rel=0.2)
+    assert stress_noise(replace(coarse, noise=probation.Noise(stress_MPa=0.02))) == 0.02

@@ -138,7 +138,6 @@ IN_FUNCTIONS = {
     "noise/moving_parabola.py": {5.0},  # Savitzky and Golay's weights
     "noise/nuisance_drift.py": {1e-4},  # rounding of what a refit leaves
     "noise/outliers.py": {0.9},  # the quantile of UPPER_95
-    "noise/quantisation.py": {4.0**power for power in range(2, 7)} | {12.0},  # reaches; variance of a uniform variable
     "noise/segments.py": {256},  # a cache
     "detection/lines_and_steps.py": {1e-3, 6.0, 256},  # even samples; Student's kurtosis; a batch
     "detection/strain_periodic.py": {1.38},  # see its docstring

@@ -16,9 +16,9 @@ from probation.errors import InputError
 from probation.law.companion import RATE_FLOOR
 from probation.law.kinematics import haward_thackray_strain
 from probation.law.schemes import as_scheme
-from probation.noise.quantisation import quantisation_step
 from probation.records.conversions import volume_strain_from
 from probation.records.noise import stress_noise
+from probation.records.quantisation import quantisation_step
 from probation.settings.effects import EFFECTS
 from probation.smoothing.excitation import excitations_of
 

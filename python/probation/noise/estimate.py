@@ -13,8 +13,8 @@ import numpy as np
 from probation.noise.arma import Arma
 from probation.noise.evidence import NoiseEvidence, noise_evidence
 from probation.noise.model import NoiseModel
-from probation.noise.quantisation import quantisation_noise
 from probation.noise.spectra import KnownSpectrum, fit_spectra
+from probation.records.quantisation import quantisation_noise
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:

@@ -11,11 +11,11 @@ from scipy.fft import dct
 from probation.noise.arma import Periodogram
 from probation.noise.growth import growth_of
 from probation.noise.outliers import find_outliers, without_outliers
-from probation.noise.quantisation import quantisation_noise, quantisation_step
 from probation.noise.segments import in_segments, legendre
 from probation.noise.smooth_basis import smooth_basis, waves
 from probation.noise.span import span_of
 from probation.records.noise import noise_level
+from probation.records.quantisation import quantisation_noise, quantisation_step
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.normal import SD_OF_MEDIAN
+from probation.records.quantisation import quantisation_step
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:
@@ -45,7 +46,13 @@ def noise_level(time: FloatArray, values: FloatArray) -> float:
 
 
 def stress_noise(record: Record) -> float:
-    """Standard deviation of a record's stress noise [MPa]: as stated with it, else by `noise_level`; never 0."""
-    stated = record.noise.stress_MPa
-    noise = noise_level(record.time, record.true_stress) if stated is None else stated
+    """Standard deviation of a record's stress noise [MPa]: as stated with it, else by `noise_level`; never 0.
+
+    Nor less than what the steps of the readings make: between coarse ones most readings follow a line.
+    """
+    noise = record.noise.stress_MPa
+    if noise is None:
+        nominal = record.true_stress * np.exp(-record.true_strain)
+        step = max(quantisation_step(record.true_stress), quantisation_step(nominal))
+        noise = max(noise_level(record.time, record.true_stress), step / np.sqrt(12.0))
     return max(noise, NOISE.least_noise * float(np.ptp(record.true_stress)), 1e-12)
