@@ -224,6 +224,17 @@ def test_a_large_file_shows_that_it_is_being_read(capsys, monkeypatch, tmp_path,
     assert "reading large.csv" in capsys.readouterr().err
 
 
+def test_a_log_is_not_silent_for_minutes(capsys, monkeypatch):
+    monkeypatch.setattr("probation.commands.progress.LOGGED_AFTER", 0.0)
+    instants = iter([0.0, 10.0, 30.0, 90.0, 100.0, 151.0])
+    monkeypatch.setattr("probation.commands.progress.time.monotonic", lambda: next(instants))
+    with shown("diagnosis") as advance:
+        for done in (10, 11, 12, 13, 14):
+            advance(done, 100, "trying causes")
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.split(",")[0] for line in lines] == ["diagnosis: 10 %", "diagnosis: 12 %", "diagnosis: 14 %"]
+
+
 def test_a_log_gets_a_line_at_every_tenth_of_what_lasts(capsys, monkeypatch):
     monkeypatch.setattr("probation.commands.progress.LOGGED_AFTER", 0.0)
     with shown("working") as advance:

@@ -16,13 +16,16 @@ if TYPE_CHECKING:
 LOGGED_AFTER = 10.0
 """Seconds that work lasts before a log gets a line."""
 
+LONGEST_SILENCE = 60.0
+"""Seconds after which there is a further line, at whatever part: a search for many effects may take minutes."""
+
 
 @contextmanager
 def shown(title: str) -> Iterator[Callable[[int, int, str], None]]:
     """Show on standard error how far the block is: on a terminal a bar that vanishes at the end, else lines.
 
     The bar comes after `SHOWN_AFTER` seconds. Where standard error is no terminal, there is a line at every tenth that
-    is reached after `LOGGED_AFTER` seconds.
+    is reached after `LOGGED_AFTER` seconds, and none of what goes on is silent for `LONGEST_SILENCE`.
 
     Yields
     ------
@@ -46,15 +49,16 @@ def in_parts(advance: Callable[[int, int, str], None]) -> Callable[[float], None
 
 
 def _tenths(title: str) -> Callable[[int, int, str], None]:
-    """Prints at every tenth."""
-    started, last_tenth = time.monotonic(), 0
+    """Prints at every tenth, and after every `LONGEST_SILENCE`."""
+    started, last_tenth, last = time.monotonic(), 0, 0.0
 
     def advance(done: int, total: int, what: str) -> None:
-        nonlocal last_tenth
+        nonlocal last_tenth, last
         tenths = 10 * done // total if total else 0
         elapsed = time.monotonic() - started
-        if tenths > last_tenth and elapsed >= LOGGED_AFTER:
-            last_tenth = tenths
+        silent_for_long = done > 0 and elapsed - last >= LONGEST_SILENCE
+        if elapsed >= LOGGED_AFTER and (tenths > last_tenth or silent_for_long):
+            last_tenth, last = tenths, elapsed
             say(f"{title}: {said(done / total, elapsed)}{f', {what}' if what else ''}")
 
     return advance
