@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import probation
 from campaigns import measured
 from probation import Campaign, InputError, Law, Record, Reference, Specimens, compare
 from probation.cli import main
-from probation.comparison.headline import sized
+from probation.comparison.headline import headline, sized
 from probation.comparison.measured_law import MeasuredLaw
 from probation.comparison.result import ChangedParameter, ChangeExplanation, Comparison
 from probation.effects.record_view import views_of
@@ -196,6 +197,18 @@ def test_a_spent_budget_gives_an_answer_and_says_what_was_not_tried(sound):
     assert "left out" in found.summary()
     with pytest.raises(InputError, match="budget: found 0"):
         compare(of_a_rig(2), sound, budget=0.0)
+
+
+@pytest.mark.parametrize(("probability", "said"), [(0.36, False), (0.82, True)])
+def test_nothing_is_said_to_have_changed_only_with_an_even_chance(probability, said):
+    """A gain of 6 % in all records was "nothing changed (probability 36 %)"; so probable was a change of the material."""
+    each = [
+        SimpleNamespace(effects=(), probability=probability, records=(), parameters=()),
+        SimpleNamespace(effects=("material_change",), probability=0.18, records=("a", "b"), parameters=()),
+    ]
+    told = headline(each, None, 2, "march")
+    assert ("Nothing changed since march" in told) == said
+    assert ("cannot be told: nothing did with 36 %, material change with 18 %." in told) != said
 
 
 def test_other_specimens_may_differ_and_the_same_one_may_not():

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from probation.diagnosis.headline import adds_little
 from probation.diagnosis.probabilities import probability_of_all
 from probation.inference.unknown import UNKNOWN
+from probation.settings.evidence import EVIDENCE
 from probation.wording import chance
 
 if TYPE_CHECKING:
@@ -48,6 +49,12 @@ def headline(
         Of the best explanation; None where all its effects are named.
     """
     best = explanations[0]
+    if not best.effects and best.probability < EVIDENCE.even_chance and len(explanations) > 1:
+        other = explanations[1]
+        return (
+            f"Whether anything changed since {reference} cannot be told: nothing did with {chance(best.probability)}, "
+            f"{named(other)} with {chance(other.probability)}{specimens}."
+        )
     if not best.effects:
         return f"Nothing changed since {reference} (probability {chance(best.probability)}){specimens}."
     shown = best if parts is None else _with_named(best, parts)
