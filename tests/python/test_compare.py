@@ -201,7 +201,7 @@ def test_a_spent_budget_gives_an_answer_and_says_what_was_not_tried(sound):
 
 @pytest.mark.parametrize(("probability", "said"), [(0.36, False), (0.82, True)])
 def test_nothing_is_said_to_have_changed_only_with_an_even_chance(probability, said):
-    """A gain of 6 % in all records was "nothing changed (probability 36 %)"; so probable was a change of the material."""
+    """A gain of 6 % was "nothing changed (probability 36 %)"; as probable was a change of the material."""
     each = [
         SimpleNamespace(effects=(), probability=probability, records=(), parameters=()),
         SimpleNamespace(effects=("material_change",), probability=0.18, records=("a", "b"), parameters=()),

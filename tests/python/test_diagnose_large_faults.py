@@ -260,6 +260,20 @@ def test_a_kink_that_the_force_moves_past_a_sample_does_not_keep_the_force_from_
     assert law.solves < 130  # 220 and two forces that were not found, with kinks that move
 
 
+def test_derivatives_are_of_the_force_with_the_kinks_that_it_was_sought_with():
+    """Where kinks alternate, those of a changed parameter are others: a slope of 1.3 MPa was one of 39."""
+    size, slack = compliance_taking(0.05, set(TESTS)), 0.25 * ELONGATION
+    records = campaign({"ramp1"}, lambda t, u, f: late_by(slack, t, u + size * f, f)).records
+    views = views_of(probation.Campaign(name="stiff", records=records[:1]))
+    compliance, offset = with_large_forms(effects(["machine_compliance", "strain_offset"]), views)
+    causes = [Cause(compliance, compliance.form("large_crosshead")), Cause(offset, offset.form("large_slack"))]
+    model = CampaignModel(DnlrLaw(LAW), views, causes)
+    at = model.parameters(LAW.parameters, [size], [slack])
+    changed = np.array([0.0, 0.0, 0.0, 0.02 * size, 0.0])
+    slope = (model.residual(at + changed) - model.residual(at - changed)) / 0.04
+    assert size * model.jacobian(at)[:, 3] == pytest.approx(slope, abs=0.05 * np.max(np.abs(slope)))
+
+
 def test_a_force_that_is_not_found_is_no_prediction():
     """Else the recorded force, from which its search begins, would be returned as what the law predicts."""
     with pytest.raises(probation.ConvergenceError, match="in balance"):

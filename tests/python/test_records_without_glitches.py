@@ -38,10 +38,11 @@ def with_readings(one, wrong, field="true_stress"):
         ({77: 99999.0}, "true_stress"),
         ({77: 300.0}, "true_stress"),
         ({77: -9999.0, 78: -9999.0}, "true_stress"),
-        ({40: 0.0, 200: 0.0}, "true_stress"),
-        ({150: 0.0}, "true_strain"),
+        ({150: 0.0, 200: 0.0, 201: 0.0}, "true_stress"),
+        ({299: -9999.0, 150: 0.0}, "true_stress"),
+        ({220: 0.0}, "true_strain"),
     ],
-    ids=["spike", "small spike", "two sentinels", "filled with 0", "a strain of 0"],
+    ids=["spike", "small spike", "two sentinels", "filled with 0", "at the end", "a strain of 0"],
 )
 def test_a_wrong_reading_is_left_out_and_said(wrong, field):
     sound = pull()
@@ -71,9 +72,27 @@ def triangle(samples):
     return record(0.05 * np.abs((time / samples + 1.0) % 2.0 - 1.0), time)
 
 
-def steps():
-    time = np.linspace(0.0, 300.0, 301)
-    return record(0.02 * np.floor(time / 100.0), time)
+def steps(every, until=200):
+    time = np.arange(until) * every
+    return record(0.02 * np.floor(np.arange(until) / 50.0), time)
+
+
+def relaxed():
+    """A step, and samples ever farther apart."""
+    time = np.concatenate([[0.0, 1.0], 1.0 + np.geomspace(0.5, 1000.0, 60)])
+    return record(np.where(time > 0.5, 0.03, 0.0), time)
+
+
+def hit():
+    """An impact that is over within two samples."""
+    time = np.arange(300.0)
+    return record(0.05 * np.exp(-0.5 * ((time - 150.0) / 0.6) ** 2), time)
+
+
+def let_go():
+    """A force that is a third of itself for one sample, as of a grip that catches at once."""
+    one = pull()
+    return with_readings(one, {200: 0.33 * one.true_stress[200]})
 
 
 def slipped():
@@ -83,8 +102,14 @@ def slipped():
 
 @pytest.mark.parametrize(
     "one",
-    [pull(), pull(30), triangle(3), triangle(5), triangle(20), steps(), slipped()],
-    ids=["pull", "few samples", "three to a turn", "five to a turn", "twenty to a turn", "steps", "slip"],
+    [
+        *(pull(), pull(30), triangle(3), triangle(5), triangle(20)),
+        *(steps(1.0), steps(10.0), steps(30.0), relaxed(), hit(), slipped(), let_go()),
+    ],
+    ids=[
+        *("pull", "few samples", "three to a turn", "five to a turn", "twenty to a turn"),
+        *("steps", "long steps", "longer steps", "relaxation", "impact", "slip", "let go"),
+    ],
 )
 def test_what_a_specimen_does_is_no_glitch(one):
     cleaned, said = without_glitches(one)
@@ -92,6 +117,11 @@ def test_what_a_specimen_does_is_no_glitch(one):
     assert not said
     noiseless = replace(one, true_stress=LAW.stress(one.time, one.true_strain, "exact"))
     assert without_glitches(noiseless)[0] is noiseless
+
+
+def test_a_record_of_few_samples_keeps_them_all():
+    few = with_readings(pull(10), {5: 999.0})
+    assert without_glitches(few)[0] is few
 
 
 def test_what_happens_often_is_not_by_accident():

@@ -393,6 +393,9 @@ def _with_predictions(base: BaseFit) -> Whitened:
     return Whitened.of([*base.whitened.records, *records], [*base.whitened.noises, *noises])
 
 
+OTHER_RATE = 1.2
+"""Ratio of two rates from which on they are meant to differ."""
+
 BETWEEN_TESTS = "change_between_tests"
 """The effect that goes by the order of the tests."""
 
@@ -414,8 +417,8 @@ def _in_order_of_rates(base: BaseFit, named: Sequence[str]) -> tuple[str, ...]:
     """What a change from test to test is not told from, where one is named."""
     rates = [float(np.median(view.rate)) for view in base.model.views]
     steps = np.diff(np.log(rates))
-    in_order = len(rates) > 2 and (np.all(steps >= 0.0) or np.all(steps <= 0.0)) and bool(np.any(steps != 0.0))
-    if not in_order or BETWEEN_TESTS not in named:
+    up, down = (bool(np.any(sign * steps > np.log(OTHER_RATE))) for sign in (1.0, -1.0))
+    if up == down or len(rates) < 3 or BETWEEN_TESTS not in named:
         return ()
     return (
         "the tests were made in the order of their rates, or are listed so: what changes from test to test cannot be "

@@ -167,9 +167,12 @@ class BaseFit:
 
     @property
     def rough_MPa(self) -> float:
-        """Root mean square of what the identify records scatter by from one sample to the next [MPa]."""
+        """Root mean square of what the identify records scatter by from one sample to the next [MPa].
+
+        As is stated with them, where that is more.
+        """
         levels = [
-            np.full(len(error), noise_level(view.sampled(view.time), error))
+            np.full(len(error), max(noise_level(view.sampled(view.time), error), view.record.noise.stress_MPa or 0.0))
             for view, error in zip(self.model.views, self.errors, strict=True)
         ]
         return float(np.sqrt(mean_square(levels, self.whitened.noises)))

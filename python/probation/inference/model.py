@@ -10,7 +10,7 @@ import numpy as np
 
 from probation._complaint import suggestion
 from probation.effects.cause import Cause
-from probation.errors import InputError
+from probation.errors import ConvergenceError, InputError
 from probation.inference.elastic_frame import ElasticFrame
 from probation.inference.own_force import ROUGHLY, SETTLED, SLOPE, OwnForce
 from probation.inference.unsolvable import UNSOLVABLE
@@ -342,7 +342,7 @@ class CampaignModel:
         force = self.balance(view, base, causes, settled, near)
         if not sensitivity:
             return Specimen(force.stress, None, force)
-        slopes = self._driven(view.quietened(force.stress), base, causes, sensitivity=True).sensitivity
+        slopes = self._driven(_held(view, force).quietened(force.stress), base, causes, sensitivity=True).sensitivity
         assert slopes is not None
         answers = np.empty_like(slopes)  # of no column, where all of the law is held
         for column, slope in enumerate(slopes.T):
@@ -358,8 +358,10 @@ class CampaignModel:
         """
         start = view.smooth_true_data
         if near is not None:  # a small change is lost within `settled` of the force, unless its first order is taken
-            start = near.moved(self._driven(view.quietened(near.stress), base, causes, sensitivity=False).stress)
+            there = _held(view, near).quietened(near.stress)
+            start = near.moved(self._driven(there, base, causes, sensitivity=False).stress)
         kinks = self._kinks(view, causes, start)
+        found: OwnForce | None = None
         for _ in range(_MOVED_KINKS):
             held = view.with_kinks(kinks)
 
@@ -369,12 +371,19 @@ class CampaignModel:
             def about(stress: FloatArray, held: RecordView = held) -> Callable[[FloatArray], FloatArray]:
                 return self._frame(held.quietened(stress), base, causes).answer
 
-            force = OwnForce(under, start, about, settled)
-            start, before = force.stress, kinks
-            kinks = self._kinks(view, causes, start)
-            if kinks == before:
+            try:
+                force = OwnForce(under, start, about, settled)
+            except ConvergenceError:
+                if found is None:
+                    raise
                 break
-        return force
+            found, start = force, force.stress
+            found.kinks = kinks
+            kinks = self._kinks(view, causes, start)
+            if kinks == found.kinks:
+                break
+        assert found is not None
+        return found
 
     def _kinks(self, view: RecordView, causes: CauseValues, stress: FloatArray) -> tuple[int, ...]:
         """Jumps of the rate of what drives the law under this recorded stress (n,) [MPa]."""
@@ -486,7 +495,7 @@ class CampaignModel:
 
         def with_this_force(value: float) -> FloatArray:
             here = _touching(changed(value), view)
-            return self._driven(view.quietened(specimen.stress), base, here, False).stress
+            return self._driven(_held(view, own).quietened(specimen.stress), base, here, False).stress
 
         answer = own.answer(_difference(with_this_force, specimen.stress, value, parameter), SLOPE)
 
@@ -524,6 +533,11 @@ def _beyond_noise(slow: FloatArray, noise: NoiseModel) -> float:
     draws = _slow_part(noise.alike.drifting.simulate(np.random.default_rng(0), NOISE.quieting_draws).T)
     of_noise = float(np.max(noise.weight @ draws**2))
     return max(1.0 - of_noise / max(float(noise.weight @ slow**2), 1e-300), 0.0)
+
+
+def _held(view: RecordView, force: OwnForce) -> RecordView:
+    """The view with the kinks with which the force was sought: with others it would not be in balance."""
+    return view if force.kinks is None else view.with_kinks(force.kinks)
 
 
 def _seen(view: RecordView, causes: CauseValues) -> tuple[RecordView, FloatArray | None]:

@@ -86,7 +86,11 @@ class OwnForce:
     ----------
     stress : ndarray, shape (n,) [MPa]
         The fixed point.
+    kinks : tuple of int, or None
+        Instants of kinks of the strain that G held while it was sought, where it held any.
     """
+
+    kinks: tuple[int, ...] | None = None
 
     def __init__(
         self,
@@ -123,7 +127,7 @@ class OwnForce:
                 if norm < norms[-1]:
                     break
             self.stress, self._next, self._known = there, beyond, 0
-            if directions > MANY:
+            if directions > MANY and np.isfinite(norm):
                 self._about = about(there)
             norms.append(norm)
             lost = lost + 1 if directions >= MOST_DIRECTIONS else 0

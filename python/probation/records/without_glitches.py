@@ -19,46 +19,69 @@ BEYOND = 3.0
 WIDTH = 5
 """Samples of which the middle one in size is taken: two readings side by side may be wrong."""
 
-ALONE = 10.0
-"""How many times as far from both its neighbours a reading lies as these and the next two move by from one to another:
-at a reversal it is once."""
-
-NEAR = 3
-"""Samples on either side whose steps count."""
-
-LARGE = 0.1
-"""Part of the largest reading by which it lies off at least: what is less is noise, which may have outliers."""
+FILLED = 0.5
+"""Part of the largest reading that those on either side of one that is exactly 0 have at least, if it was filled in."""
 
 MOST = 0.02
 """Part of a record's samples that are left out at most: what happens more often is not by accident."""
 
+LEAST = 10
+"""Samples that are left at least."""
+
+STEP, SUDDEN = 0.05, 5.0
+"""Part of a channel's range, and times its usual step, from which on it steps: what the other channel does then is the
+specimen's, however high its peak."""
+
 
 def without_glitches(record: Record) -> tuple[Record, str]:
     """The record without them, and a sentence on that; as it is, and no words, where there are none."""
-    wild = {"stress": _wild(record.true_stress), "strain": _wild(record.true_strain)}
+    stress, strain = record.true_stress, record.true_strain
+    wild = {  # of what the other channel follows, an impact or a step, both are readings
+        "stress": (_beyond(stress) & ~_stepped(strain)) | _filled(stress),
+        "strain": (_beyond(strain) & ~_stepped(stress)) | _filled(strain),
+    }
     left_out = np.flatnonzero(wild["stress"] | wild["strain"])
-    if not 0 < len(left_out) <= max(MOST * len(record), 1.0):
+    if not 0 < len(left_out) <= max(MOST * len(record), 1.0) or len(record) - len(left_out) < LEAST:
         return record, ""
-    of = " and ".join(name for name, which in wild.items() if which.any())
+    channels = [name for name, which in wild.items() if which.any()]
+    of = f"its {' and '.join(channels)} {'is' if len(channels) == 1 else 'are'}"
     at = ", ".join(f"{record.time[index]:.6g}" for index in left_out[:3]) + (", …" if len(left_out) > 3 else "")
     samples = "1 sample was" if len(left_out) == 1 else f"{len(left_out)} samples were"
     kept = np.ones(len(record), dtype=np.bool_)
     kept[left_out] = False
-    why = f"its {of} is elsewhere for an instant, at {at} s: taken for no reading; {samples} left out"
+    why = f"{of} elsewhere for an instant, at {at} s: taken for no reading; {samples} left out"
     return record.only(kept), why
 
 
-def _wild(values: FloatArray) -> NDArray[np.bool_]:
-    """Which samples are no readings, shape (n,)."""
-    size = np.abs(values)
-    usual = float(np.max(median_filter(size, WIDTH, mode="nearest")))
-    if usual == 0.0 or len(values) < 2 * NEAR + 1:
-        return np.zeros(len(values), dtype=np.bool_)
-    wild = size > BEYOND * usual
+def _beyond(values: FloatArray) -> NDArray[np.bool_]:
+    """Which samples are far beyond all others, shape (n,)."""
+    usual = _usual(values)
+    return np.asarray((np.abs(values) > BEYOND * usual) & (usual > 0.0))
+
+
+def _filled(values: FloatArray) -> NDArray[np.bool_]:
+    """Which samples were filled with 0, one or two between large ones; shape (n,)."""
+    large, filled = FILLED * _usual(values), np.zeros(len(values), dtype=np.bool_)
+    for first, end in _runs(values == 0.0):
+        if first > 0 and end < len(values) and end - first <= WIDTH // 2:
+            before, after = values[first - 1], values[end]
+            filled[first:end] = before * after > 0.0 and min(abs(before), abs(after)) > large
+    return filled
+
+
+def _usual(values: FloatArray) -> float:
+    """The largest size but for readings that stand alone."""
+    return float(np.max(median_filter(np.abs(values), WIDTH, mode="mirror")))
+
+
+def _runs(which: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First samples, and those behind the last, of each run of True."""
+    borders = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]]))).reshape(-1, 2)
+    return [(int(first), int(end)) for first, end in borders]
+
+
+def _stepped(values: FloatArray) -> NDArray[np.bool_]:
+    """Which samples a channel steps into or out of, shape (n,)."""
     step = np.abs(np.diff(values))
-    off = np.abs(values[1:-1] - 0.5 * (values[:-2] + values[2:]))
-    for index in 1 + np.flatnonzero(off > LARGE * usual):
-        before, after = step[max(index - NEAR, 0) : index - 1], step[index + 1 : index + NEAR]
-        across = abs(values[index + 1] - values[index - 1])
-        wild[index] |= off[index - 1] > ALONE * max(*before, *after, across)
-    return wild
+    steps = step > np.maximum(SUDDEN * np.median(step), STEP * np.ptp(values))
+    return np.asarray(np.append(steps, False) | np.append(False, steps))

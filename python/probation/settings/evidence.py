@@ -159,7 +159,7 @@ class EvidenceSettings:
         "-",
         "Misfit after an explanation, over the noise and over what any smooth correction leaves, beyond which it "
         "explains too little, however its form may be wrong; over the noise alone where what is left is mostly a "
-        "function of a recorded variable. Right explanations of sealed campaigns leave 0.9 to 1.2 times the noise.",
+        "function of a recorded variable, or a good part of the gap (`explained_part`). Right explanations of sealed campaigns leave 0.9 to 1.2 times the noise.",
         source="docs/blind-results.md: calibrate, seed 43",
     )
     explained_part: float = chosen(
