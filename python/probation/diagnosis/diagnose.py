@@ -43,6 +43,7 @@ from probation.records.as_tested import as_tested
 from probation.records.signal import require_signal
 from probation.records.unlike_others import unlike_others
 from probation.settings.detection import DETECTION
+from probation.settings.evidence import EVIDENCE
 from probation.settings.noise import NOISE
 from probation.settings.search import SEARCH
 
@@ -393,9 +394,6 @@ def _with_predictions(base: BaseFit) -> Whitened:
     return Whitened.of([*base.whitened.records, *records], [*base.whitened.noises, *noises])
 
 
-OTHER_RATE = 1.2
-"""Ratio of two rates from which on they are meant to differ."""
-
 BETWEEN_TESTS = "change_between_tests"
 """The effect that goes by the order of the tests."""
 
@@ -417,7 +415,7 @@ def _in_order_of_rates(base: BaseFit, named: Sequence[str]) -> tuple[str, ...]:
     """What a change from test to test is not told from, where one is named."""
     rates = [float(np.median(view.rate)) for view in base.model.views]
     steps = np.diff(np.log(rates))
-    up, down = (bool(np.any(sign * steps > np.log(OTHER_RATE))) for sign in (1.0, -1.0))
+    up, down = (bool(np.any(sign * steps > np.log(EVIDENCE.other_rate))) for sign in (1.0, -1.0))
     if up == down or len(rates) < 3 or BETWEEN_TESTS not in named:
         return ()
     return (

@@ -159,7 +159,8 @@ class EvidenceSettings:
         "-",
         "Misfit after an explanation, over the noise and over what any smooth correction leaves, beyond which it "
         "explains too little, however its form may be wrong; over the noise alone where what is left is mostly a "
-        "function of a recorded variable, or a good part of the gap (`explained_part`). Right explanations of sealed campaigns leave 0.9 to 1.2 times the noise.",
+        "function of a recorded variable, or a good part of the gap (`explained_part`). "
+        "Right explanations of sealed campaigns leave 0.9 to 1.2 times the noise.",
         source="docs/blind-results.md: calibrate, seed 43",
     )
     explained_part: float = chosen(
@@ -180,6 +181,7 @@ class EvidenceSettings:
         "Noise over what readings scatter by from one to the next beyond which a headline that sees no gap says so: "
         "what is slow may be none.",
     )
+    other_rate: float = chosen(1.2, "-", "Ratio of two rates of tests from which on they are meant to differ.")
     least_part: float = chosen(
         0.05,
         "-",
