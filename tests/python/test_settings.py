@@ -139,6 +139,7 @@ IN_FUNCTIONS = {
     "noise/nuisance_drift.py": {1e-4},  # rounding of what a refit leaves
     "noise/outliers.py": {0.9},  # the quantile of UPPER_95
     "noise/segments.py": {256},  # a cache
+    "diagnosis/other_measure.py": {0.9},  # a strain of which there is a logarithm
     "detection/lines_and_steps.py": {1e-3, 6.0, 256},  # even samples; Student's kurtosis; a batch
     "detection/strain_periodic.py": {1.38},  # see its docstring
     "smoothing/answer.py": {0.95},

@@ -18,6 +18,7 @@ from probation.diagnosis.explain import base_parameters, explanations_of, region
 from probation.diagnosis.headline import headline, with_budget, with_remainder
 from probation.diagnosis.held_out import all_but_one, made_worse
 from probation.diagnosis.next import is_stretched, next_test_of, one_after_the_other
+from probation.diagnosis.other_measure import other_measure
 from probation.diagnosis.probabilities import answer_set, with_unseen
 from probation.diagnosis.remainder import is_left, remainder_of
 from probation.diagnosis.remainder_tests import remainder_tests
@@ -249,6 +250,7 @@ def diagnose(
         next_tests=following,
         curves=curves,
         warnings=(
+            *(other_measure(base) if gap.in_fitted and gap.matters(tolerance) else ()),
             *campaign.warnings,
             *thinned,
             *unlike_others(campaign.records),

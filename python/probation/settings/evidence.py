@@ -181,6 +181,12 @@ class EvidenceSettings:
         "Noise over what readings scatter by from one to the next beyond which a headline that sees no gap says so: "
         "what is slow may be none.",
     )
+    other_measure: float = chosen(
+        0.9,
+        "-",
+        "Part of the squared misfit that closes where a column is taken for engineering stress or strain, from which "
+        "on that is asked.",
+    )
     other_rate: float = chosen(1.2, "-", "Ratio of two rates of tests from which on they are meant to differ.")
     least_part: float = chosen(
         0.05,
