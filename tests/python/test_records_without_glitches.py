@@ -58,7 +58,7 @@ def test_a_spike_is_not_taken_for_a_break_and_the_fit_is_what_it_is_without_it()
     """Of 300 samples 222 went with it once, and 11021 MPa were within the noise."""
     sound = pull()
     spiked = probation.Campaign(name="spiked", records=(with_readings(sound, {77: 99999.0}),))
-    (read,) = as_tested(spiked)[0].records
+    (read,) = as_tested(spiked).records
     assert len(read) == len(sound) - 1
     assert len(read.warnings) == 1
     plain = probation.fit(probation.Campaign(name="sound", records=(sound,)))

@@ -114,7 +114,7 @@ def calibrate_companion(
     if not isinstance(source, Campaign):
         raise InputError(f"source is {source!r}; expected a Campaign or a RateTable")
     advance = progress or (lambda done, total, what: None)
-    source, driven = as_tested(source)[0], []
+    source, driven = as_tested(source), []
     for at, drive in enumerate(excite_each(source.identify, further=source.held_out)):
         driven.append(drive)
         advance(at + 1, len(source.identify), f"strain rate of {source.identify[at].id}")

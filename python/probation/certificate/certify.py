@@ -95,7 +95,7 @@ def certify(
             f"campaign {campaign.name!r}: found one record, expected at least two: "
             "the probation test predicts one record from others"
         )
-    campaign, _ = as_tested(campaign)
+    campaign = as_tested(campaign)
     if hold:
         campaign = replace(campaign, law=replace(campaign.law, fixed={**campaign.law.fixed, **hold}))
     fits = CertificateFits(campaign, as_scheme(scheme, DIFFERENTIABLE), excitation)

@@ -104,7 +104,7 @@ def compare(
     workers = at_once(threads)
     reference = against if isinstance(against, Reference) else Reference.of(against, scheme)
     together = pair(campaign, reference.campaign, pairs)
-    campaign, of_reference = as_tested(campaign)[0], as_tested(reference.campaign)[0].warnings
+    campaign, of_reference = as_tested(campaign), as_tested(reference.campaign).warnings
     campaign, thinned = thin(campaign)
     kept = replace(campaign, records=tuple(replace(r, role="identify") for r in campaign.records if r.id in together))
     for record in kept.records:

@@ -64,7 +64,7 @@ class Reference(ShortRepr):
             As `probation.fit`.
         """
         chosen = at_samples(scheme, DIFFERENTIABLE)
-        thinned, _ = thin(as_tested(campaign)[0])
+        thinned, _ = thin(as_tested(campaign))
         whole = replace(thinned, records=tuple(replace(record, role="identify") for record in thinned.records))
         identified = fit(whole, chosen, weighting="plain", method="variable-projection", gap=False)
         law = DnlrLaw(identified.law, held=identified.law.parameter_names)

@@ -135,7 +135,7 @@ def diagnose(
 
     for record in campaign.records:
         require_signal(record)
-    campaign, _ = as_tested(campaign)
+    campaign = as_tested(campaign)
     campaign, thinned = thin(campaign)
 
     def done(part: float, doing: str = "") -> None:

@@ -83,7 +83,7 @@ def campaign_isolability(
     """
     advance = progress or (lambda part: None)
     advance(Part(0.0, "fitting the law"))
-    campaign, _ = as_tested(campaign)
+    campaign = as_tested(campaign)
     base = base_fit(campaign, plain_fit(campaign, scheme, hold))
     advance(Part(0.3, "comparing effects"))
     effect_isolability = isolability(

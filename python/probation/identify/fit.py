@@ -105,7 +105,7 @@ def fit(
     one_of(intervals, "intervals", INTERVALS)
     if substeps != "auto" and (not isinstance(substeps, int) or isinstance(substeps, bool) or substeps < 1):
         raise InputError(f"substeps is {substeps!r}; expected 'auto' or a whole number of at least 1")
-    campaign, _ = as_tested(campaign)
+    campaign = as_tested(campaign)
     law, held = base_law(campaign.law, hold or {})
     limits = _limits(law, bounds or {})
     views = []
@@ -183,7 +183,7 @@ def _judged(fitted: Fit, campaign: Campaign, hold: Mapping[str, float] | None) -
 
 
 def _base_of(campaign: Campaign, hold: Mapping[str, float] | None = None) -> BaseFit:
-    few = thin(as_tested(campaign)[0])[0]
+    few = thin(as_tested(campaign))[0]
     return base_fit(few, plain_fit(few, hold=hold)).screened(effects())
 
 

@@ -14,23 +14,21 @@ if TYPE_CHECKING:
     from probation.records.campaign import Campaign
 
 
-def as_tested(campaign: Campaign) -> tuple[Campaign, tuple[str, ...]]:
+def as_tested(campaign: Campaign) -> Campaign:
     """The campaign with records without glitches, ended where specimen or extensometer did, at times before rounding.
 
-    Beside it what was done.
-
-    Every record that was changed has a warning, too.
+    Every record that was changed has a warning.
 
     Parameters
     ----------
     campaign : Campaign
     """
-    records, said = [], []
+    records = []
     for record in campaign.records:
         notes = []
         for step in (without_glitches, until_break, until_strain_stops, even_times):
             record, note = step(record)  # noqa: PLW2901
             notes += [note] if note else []
-        said += [f"{record.id}: {note}" for note in notes]
         records.append(replace(record, warnings=(*record.warnings, *notes)) if notes else record)
-    return (replace(campaign, records=tuple(records)), tuple(said)) if said else (campaign, ())
+    changed = any(new is not old for new, old in zip(records, campaign.records, strict=True))
+    return replace(campaign, records=tuple(records)) if changed else campaign

@@ -56,7 +56,7 @@ def survey(folder: Path) -> Survey:
     InputError
         If the campaign cannot be read.
     """
-    campaign, _ = thin(as_tested(probation.Campaign.load(folder))[0])
+    campaign, _ = thin(as_tested(probation.Campaign.load(folder)))
     catalogue = effects()
     base = base_fit(campaign, plain_fit(campaign)).screened(catalogue)
     gap = with_sharp(GapTester(base.whitened, base.smooth_columns.by_effect())(), base.whitened).rejected
