@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from campaigns.few_records import damage, few_records
+from probation import ConvergenceError
 from probation.diagnosis.diagnose import diagnose
 
 
@@ -34,3 +35,11 @@ def test_a_column_that_another_measure_explains_is_asked_for_first(column):
 @pytest.mark.parametrize("fault", [None, damage(0.05), damage(0.3)], ids=["nothing", "damage", "more of it"])
 def test_other_faults_are_not_asked_about(fault):
     assert not asked(few_records(fault))
+
+
+def test_a_law_that_cannot_be_solved_there_asks_nothing(monkeypatch):
+    def unsolvable(*_):
+        raise ConvergenceError("no solution")
+
+    monkeypatch.setattr("probation.diagnosis.other_measure.refit", unsolvable)
+    assert not asked(few_records(damage(0.05)))

@@ -26,7 +26,10 @@ def other_measure(base: BaseFit) -> tuple[str, ...]:
     base : BaseFit
         The law on the records, with a gap.
     """
-    before = _misfit(base, base.model.views)
+    try:
+        before = _misfit(base, base.model.views)
+    except UNSOLVABLE:
+        return ()
     least = (1.0 - EVIDENCE.other_measure) * before
     answer: tuple[str, ...] = ()
     for column, converted in (("stress", _true_stress), ("strain", _true_strain)):
