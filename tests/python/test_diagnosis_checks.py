@@ -177,7 +177,8 @@ def test_an_explanation_that_leaves_plainly_more_than_noise_explains_too_little(
     """More than half as much again as the noise, and as what any smooth correction would leave."""
 
     def closed(left):
-        return Closure(before_MPa=2.0, after_MPa=left, noise_MPa=noise, closure=0.5, interval=None, how="")
+        closure = 1.0 - (left**2 - noise**2) / (2.0**2 - noise**2)
+        return Closure(before_MPa=2.0, after_MPa=left, noise_MPa=noise, closure=closure, interval=None, how="")
 
     ceiling = None if smooth is None else closed(smooth)
     assert leaves_too_much(Shrink(closed(after), None, {}, (), ceiling)) is too_much

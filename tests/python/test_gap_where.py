@@ -11,8 +11,8 @@ from probation.detection.signatures import parameter_drift
 from probation.detection.where import contribution_regions, locate
 from probation.noise.arma import Arma
 from probation.noise.model import NoiseModel
-from probation.noise.regions import runs
 from probation.noise.whitening import Whitened
+from probation.records.runs import runs
 
 NAMES = ("unrelaxed_modulus", "tau_max", "hardening_modulus")
 COUNT = 500

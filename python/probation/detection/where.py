@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from probation.detection.tail import chi_square_tail, family_p_value
-from probation.noise.regions import Kind, Region, runs, state_regions, time_regions
+from probation.noise.regions import Kind, Region, state_regions, time_regions
 from probation.noise.smooth_basis import smooth_basis
+from probation.records.runs import runs
 from probation.settings.detection import DETECTION
 
 if TYPE_CHECKING:

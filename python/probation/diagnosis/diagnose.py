@@ -396,10 +396,6 @@ def _with_predictions(base: BaseFit) -> Whitened:
     return Whitened.of([*base.whitened.records, *records], [*base.whitened.noises, *noises])
 
 
-BETWEEN_TESTS = "change_between_tests"
-"""The effect that goes by the order of the tests."""
-
-
 def _not_followed(beyond_the_law: Sequence[Effect], of: int) -> tuple[str, ...]:
     """One sentence where the law cannot follow effects, of so many that the records could show; else empty."""
     if not beyond_the_law:
@@ -411,6 +407,10 @@ def _not_followed(beyond_the_law: Sequence[Effect], of: int) -> tuple[str, ...]:
         "give the law more capabilities"
     )
     return (text,)
+
+
+BETWEEN_TESTS = "change_between_tests"
+"""The effect that goes by the order of the tests."""
 
 
 def _in_order_of_rates(base: BaseFit, named: Sequence[str]) -> tuple[str, ...]:

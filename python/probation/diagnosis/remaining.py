@@ -33,9 +33,8 @@ def leaves_too_much(shrink: Shrink, left: Remainder | None = None) -> bool:
     """
     fitted = shrink.identify
     reachable = fitted.noise_MPa
-    before, after = (max(rms**2 - reachable**2, 0.0) for rms in (fitted.before_MPa, fitted.after_MPa))
-    mostly_left = after > (1.0 - EVIDENCE.explained_part) * before
-    if shrink.ceiling is not None and not mostly_left:
+    explained = fitted.closure is None or fitted.closure >= EVIDENCE.explained_part
+    if shrink.ceiling is not None and explained:
         reachable = max(reachable, shrink.ceiling.after_MPa)
     if left is not None and left.mostly_a_function:
         reachable = fitted.noise_MPa

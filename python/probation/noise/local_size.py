@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.ndimage import binary_dilation, median_filter, uniform_filter1d
 
-from probation.noise.regions import runs
+from probation.records.runs import runs
 from probation.settings.noise import NOISE
 
 if TYPE_CHECKING:

@@ -89,18 +89,6 @@ def state_regions(records: Sequence[RecordResidual]) -> list[Region]:
     return regions
 
 
-def runs(inside: NDArray[np.bool_], bridge: int = 0, least: int = 1) -> list[slice]:
-    """Runs of True; gaps of up to `bridge` samples are closed, then runs below `least` samples dropped."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int)))
-    bridged: list[list[int]] = []
-    for first, stop in edges.reshape(-1, 2).tolist():
-        if bridged and first - bridged[-1][1] <= bridge:
-            bridged[-1][1] = stop
-        else:
-            bridged.append([first, stop])
-    return [slice(first, stop) for first, stop in bridged if stop - first >= least]
-
-
 def _region(kind: Kind, label: str, inside: list[NDArray[np.bool_]]) -> list[Region]:
     members = tuple(
         (index, mask) for index, mask in enumerate(inside) if np.count_nonzero(mask) >= NOISE.fewest_of_a_region

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.ndimage import median_filter
 
+from probation.records.runs import runs
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -62,22 +64,16 @@ def _beyond(values: FloatArray) -> NDArray[np.bool_]:
 def _filled(values: FloatArray) -> NDArray[np.bool_]:
     """Which samples were filled with 0, one or two between large ones; shape (n,)."""
     large, filled = FILLED * _usual(values), np.zeros(len(values), dtype=np.bool_)
-    for first, end in _runs(values == 0.0):
-        if first > 0 and end < len(values) and end - first <= WIDTH // 2:
-            before, after = values[first - 1], values[end]
-            filled[first:end] = before * after > 0.0 and min(abs(before), abs(after)) > large
+    for run in runs(values == 0.0):
+        if run.start > 0 and run.stop < len(values) and run.stop - run.start <= WIDTH // 2:
+            before, after = values[run.start - 1], values[run.stop]
+            filled[run] = before * after > 0.0 and min(abs(before), abs(after)) > large
     return filled
 
 
 def _usual(values: FloatArray) -> float:
     """The largest size but for readings that stand alone."""
     return float(np.max(median_filter(np.abs(values), WIDTH, mode="mirror")))
-
-
-def _runs(which: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """First samples, and those behind the last, of each run of True."""
-    borders = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]]))).reshape(-1, 2)
-    return [(int(first), int(end)) for first, end in borders]
 
 
 def _stepped(values: FloatArray) -> NDArray[np.bool_]:
